@@ -27,6 +27,7 @@ struct Choices {
   std::filesystem::path scan, labels, fat, also, wall, points, overlay, measures;
   std::string accept_other, side, interior = "threshold", contrast = "auto", posture = "prone";
   int series = 0, fat_series = 0, also_series = 0;
+  bool list = false;
   double wall_shift = 0;
   std::vector<std::string> codes;
 };
@@ -52,8 +53,12 @@ void declare(Tool& tool, Choices& c) {
   tool.choice(c.side, "--side", {"left", "right"}, "the patient's left or right breast")
       .required("--side");
   tool.choice(c.posture, "--posture", {"prone", "supine"}, "how the patient lies");
-  tool.integer(c.series, "--series", "N", "which series of a DICOM folder (0: the only one)", 0,
-               10000);
+  tool.integer(
+      c.series, "--series", "N",
+      "which series of a DICOM folder, by its number in --list (0: the best, by the rule of `scan`)",
+      0, 10000);
+  tool.question(c.list, "--list",
+                "print the table of the series of a DICOM folder, as `scan` does, and end");
   tool.input_file(
       c.wall, "--chest-wall", "FILE|POINTS",
       "corrected chest wall: a segmentation of 3D Slicer (.seg.nrrd, segment 'Chest wall'), a "
@@ -230,13 +235,21 @@ void check_posture(const std::string& position, const std::string& posture, Run&
 }
 
 /// Another scan of the same examination, if one is given.
-std::optional<Volume<float>> read_other(const std::filesystem::path& file, int series,
+std::optional<Volume<float>> read_other(const std::filesystem::path& file, const ScanChoice& choice,
                                         std::vector<Run::Input>& inputs) {
   if (file.empty()) return {};
   VolumeSource source;
-  Volume<float> scan = read_volume(file, series, &source);
+  Volume<float> scan = read_volume(file, choice, &source);
   inputs.push_back({file, source.content_sha256, nullptr});
   return scan;
+}
+
+void list_series_of(const Choices& c, Run& run) {
+  ScanChoice choice;
+  if (!c.side.empty()) choice.side = side_from_name(c.side);
+  std::vector<std::string> remarks;
+  run.print(list_series(c.scan, choice, remarks).text());
+  for (const std::string& remark : remarks) run.remark(remark);
 }
 
 void run_segment(const Choices& c, Run& run) {
@@ -254,12 +267,13 @@ void run_segment(const Choices& c, Run& run) {
   VolumeSource source;
   const Volume<float> scan = [&] {
     const Timer::Scope phase(run.timer(), "read");
-    return read_volume(c.scan, c.series, &source);
+    return read_volume(c.scan, ScanChoice(c.series, options.side), &source);
   }();
+  for (const std::string& remark : source.remarks) run.remark(remark);
   check_posture(source.patient_position, c.posture, run);
   std::vector<Run::Input> inputs{{c.scan, source.content_sha256, nullptr}};
-  options.fat = read_other(c.fat, c.fat_series, inputs);
-  options.also = read_other(c.also, c.also_series, inputs);
+  options.fat = read_other(c.fat, ScanChoice(c.fat_series, options.side), inputs);
+  options.also = read_other(c.also, ScanChoice(c.also_series, options.side), inputs);
   if (wall) {
     Origin mr = origin_of_scan(c.scan, source.content_sha256, scan.grid);
     mr.side = options.side;
@@ -310,5 +324,6 @@ int main(int argc, char** argv) {
   Choices c;
   Tool tool("segment", "labels of one breast from a prone or supine T1 MR scan");
   declare(tool, c);
-  return tool.main(argc, argv, [&c](Run& run) { run_segment(c, run); });
+  return tool.main(argc, argv,
+                   [&c](Run& run) { c.list ? list_series_of(c, run) : run_segment(c, run); });
 }

@@ -23,6 +23,8 @@ struct Argument {
   double high = std::numeric_limits<double>::infinity();
   int count = 1;  ///< numbers: how many
   bool repeatable = false, required = false, given = false;
+  /// A flag with which only the first positional argument is needed, and no option: nothing is written.
+  bool question = false;
   /// Stores the values (already checked in kind and range); for a flag `values` is empty.
   std::function<void(const std::vector<std::string>& values)> store;
 

@@ -60,9 +60,9 @@ void store(Argument& argument, const std::vector<std::string>& values) {
   argument.store(values);
 }
 
-void assign_positionals(Declaration& tool, const std::vector<std::string>& values) {
+void assign_positionals(Declaration& tool, const std::vector<std::string>& values, bool asked) {
   auto& wanted = tool.positionals;
-  if (values.size() < wanted.size()) {
+  if (values.size() < wanted.size() && !(asked && !values.empty())) {
     throw input_error(wanted[values.size()].label(), " is missing; usage: ", synopsis(tool));
   }
   const bool open_end = !wanted.empty() && wanted.back().repeatable;
@@ -70,7 +70,7 @@ void assign_positionals(Declaration& tool, const std::vector<std::string>& value
     throw input_error("'", values[wanted.size()],
                       "' is one argument too many; usage: ", synopsis(tool));
   }
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
+  for (std::size_t i = 0; i < std::min(wanted.size(), values.size()); ++i) {
     const bool rest = wanted[i].repeatable;
     store(wanted[i],
           {values.begin() + long(i), rest ? values.end() : values.begin() + long(i) + 1});
@@ -114,9 +114,12 @@ void assign(Declaration& tool, const Tokens& tokens) {
     }
     store(*argument, option.values);
   }
-  assign_positionals(tool, tokens.positionals);
+  const bool asked =
+      std::any_of(tool.options.begin(), tool.options.end(),
+                  [](const Argument& argument) { return argument.question && argument.given; });
+  assign_positionals(tool, tokens.positionals, asked);
   for (const Argument& argument : tool.options) {
-    if (argument.required && !argument.given) {
+    if (!asked && argument.required && !argument.given) {
       throw input_error(usage(argument), " is missing; usage: ", synopsis(tool));
     }
   }

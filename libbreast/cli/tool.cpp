@@ -199,6 +199,13 @@ Tool& Tool::flag(bool& value, const std::string& name, const std::string& help) 
   return *this;
 }
 
+Tool& Tool::question(bool& value, const std::string& name, const std::string& help) {
+  Argument& argument = impl_->add(option(ArgumentKind::flag, name, "", help));
+  argument.question = true;
+  argument.store = [&value](const std::vector<std::string>&) { value = true; };
+  return *this;
+}
+
 Tool& Tool::input_file(std::filesystem::path& value, const std::string& name,
                        const std::string& placeholder, const std::string& help) {
   impl_->add(option(ArgumentKind::input, name, placeholder, help)).store = into(value);

@@ -110,6 +110,9 @@ class Tool {
   Tool& numbers(std::vector<double>& values, const std::string& name,
                 const std::string& placeholder, int count, const std::string& help);
   Tool& flag(bool& value, const std::string& name, const std::string& help);
+  /// A flag with which the tool only answers: all but the first positional argument, and options that are
+  /// otherwise required, may be left out.
+  Tool& question(bool& value, const std::string& name, const std::string& help);
   Tool& input_file(std::filesystem::path& value, const std::string& name,
                    const std::string& placeholder, const std::string& help);
   Tool& output_file(std::filesystem::path& value, const std::string& name,

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reading and writing of image volumes with ITK: NRRD, NIfTI or MetaImage by file extension, or a
-// DICOM series from a folder.
+// Reading and writing of image volumes: NRRD, NIfTI or MetaImage by file extension, or a DICOM series
+// from a folder.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "core/table.hpp"
 #include "image/volume.hpp"
+#include "io/scan_choice.hpp"
 
 namespace breast {
 
@@ -17,14 +20,22 @@ struct VolumeSource {
       description;  ///< "nrrd", "DICOM series 3: 40 files of 512 x 512 pixels, series number 7"
   std::string
       patient_position;  ///< of a DICOM series, as "HFP" (head first, prone); "" if not stated
+  std::string
+      contrast;  ///< of a DICOM series, as its header states it: "T1", "water"; "not stated"
+  /// What was taken and what was passed over in a DICOM folder, a line each.
+  std::vector<std::string> remarks;
   std::string content_sha256;  ///< of grid and voxels, the same for NRRD and DICOM of one scan
 };
 
-/// Reads any scalar volume as float. `series` (from 1; 0: the only one) selects a DICOM series; for
-/// a folder with several series and `series` 0, an Error (input) lists them. Refuses missing
-/// slices, spacings that differ by more than 1 %, non-finite voxels, and colour and vector images.
-Volume<float> read_volume(const std::filesystem::path& file, int series = 0,
+/// Reads any scalar volume as float. Of a DICOM folder, with all that lies below it, the series asked for, or
+/// else the best (series_rule); an Error (input) lists those that are equally good. Refuses missing
+/// slices, slices that are not equally spaced (1 %, or places within 0.1 mm), non-finite voxels, and colour and vector images.
+Volume<float> read_volume(const std::filesystem::path& file, const ScanChoice& choice = {},
                           VolumeSource* source = nullptr);
+/// The series of a DICOM folder, a row each: number, images, pixels, voxel size, contrast by the header, time
+/// point, sides, and whether it would be taken or why not. `remarks` receives what was passed over. No description, which may hold a name.
+Table list_series(const std::filesystem::path& folder, const ScanChoice& choice,
+                  std::vector<std::string>& remarks);
 /// SHA-256 of grid (rounded to what file formats keep: 1e-3 mm, 1e-4 in directions) and voxels.
 std::string content_hash(const Volume<float>& volume);
 /// Writes .nrrd (gzip), .nii, .nii.gz or .mha atomically.

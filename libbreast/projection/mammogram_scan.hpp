@@ -23,6 +23,7 @@ struct MammogramHeader {
   /// mm at the detector per mm in the breast if the header states it, otherwise 1.
   double magnification = 1;
   int columns = 0, rows = 0;
+  bool bright_is_low = false;  ///< MONOCHROME1: low values are shown bright
   /// Patient directions of the image's rows (to the right) and columns (downwards), from letters
   /// such as A\R or P\FL; not normalised, zero when absent.
   Vec3 right{0, 0, 0}, down{0, 0, 0};

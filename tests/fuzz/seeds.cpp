@@ -26,7 +26,7 @@ Document load_document(const std::filesystem::path& file, const std::string&, co
 int threads() {
   return 1;
 }
-Volume<float> read_volume(const std::filesystem::path&, int, VolumeSource*) {
+Volume<float> read_volume(const std::filesystem::path&, const ScanChoice&, VolumeSource*) {
   return {};
 }
 

@@ -146,7 +146,7 @@ Document load_document(const std::filesystem::path&, const std::string&, const s
 }
 void save_document(const std::filesystem::path&, const Document&) {}
 // In place of io/volume/read_volume.cpp, where ITK reads the voxels behind the same check: one of each value that a header names.
-Volume<float> read_volume(const std::filesystem::path& file, int, VolumeSource*) {
+Volume<float> read_volume(const std::filesystem::path& file, const ScanChoice&, VolumeSource*) {
   nrrd_grid(file);
   Grid grid;
   grid.size = {4, 3, 2};

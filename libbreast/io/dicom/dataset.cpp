@@ -79,18 +79,25 @@ DatasetBuilder& DatasetBuilder::sequence(std::uint32_t tag,
   return *this;
 }
 
+DatasetBuilder& DatasetBuilder::fragments(std::string_view bytes) {
+  constexpr std::uint32_t pixel_data = 0x7fe00010;
+  elements_[pixel_data] = tag_bytes(pixel_data) + "OB" + std::string(2, '\0') +
+                          little_endian(undefined_length, 4) + std::string(bytes);
+  return *this;
+}
+
 std::string DatasetBuilder::bytes() const {
   std::string all;
   for (const auto& [tag, element] : elements_) all += element;
   return all;
 }
 
-std::string DatasetBuilder::file() const {
+std::string DatasetBuilder::file(const std::string& syntax) const {
   DatasetBuilder meta;
   meta.put(0x00020001, "OB", std::string("\0\1", 2))
       .text(0x00020002, "UI", class_uid_)
       .text(0x00020003, "UI", instance_uid_)
-      .text(0x00020010, "UI", "1.2.840.10008.1.2.1")
+      .text(0x00020010, "UI", syntax)
       .text(0x00020012, "UI", uid_from("libbreast"))
       .text(0x00020013, "SH", "libbreast");
   const std::string rest = meta.bytes();

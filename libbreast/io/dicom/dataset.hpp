@@ -22,11 +22,14 @@ class DatasetBuilder {
   DatasetBuilder& words(std::uint32_t tag, std::string_view bytes);  ///< OW, 16-bit values
   DatasetBuilder& sequence(std::uint32_t tag, const std::vector<DatasetBuilder>& items);
 
+  /// Encapsulated pixel data: fragments with their heads, up to the delimiter that ends them.
+  DatasetBuilder& fragments(std::string_view bytes);
+
   /// Returns the encoded elements in the order of their tags.
   std::string bytes() const;
   /// Returns a whole file: preamble, meta information with the set's SOP class and instance, and
-  /// the set.
-  std::string file() const;
+  /// the set. Another transfer syntax than explicit little endian is that of its encapsulated pixels.
+  std::string file(const std::string& syntax = "1.2.840.10008.1.2.1") const;
 
  private:
   DatasetBuilder& put(std::uint32_t tag, const char* vr, std::string value);

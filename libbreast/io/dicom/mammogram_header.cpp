@@ -135,6 +135,7 @@ MammogramHeader read_mammogram_header(const std::filesystem::path& file) {
   header.force_N = fields.number("0018|11a2", "compression force", 0, 1000);
   header.rows = int(fields.number("0028|0010", "rows", 1, 65535).value_or(0));
   header.columns = int(fields.number("0028|0011", "columns", 1, 65535).value_or(0));
+  header.bright_is_low = fields.text("0028|0004") == "MONOCHROME1";
   const std::string orientation = fields.text("0020|0020");
   const auto bar = orientation.find('\\');
   if (bar != std::string::npos) {

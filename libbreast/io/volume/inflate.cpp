@@ -15,13 +15,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Inflates the members of a gzip stream, or a zlib stream, up to the last one's checksum and length,
+constexpr int gzip_or_zlib = 15 + 32, raw = -15;  // window bits, as zlib takes them
+
+/// Inflates the members of a gzip stream, or a zlib or raw stream, up to the last one's checksum and length,
 /// which zlib compares. gzread will not do: it takes a stream cut inside them for whole.
 class Inflater {
  public:
-  Inflater(const fs::path& file, std::ifstream& in) : file_(file), in_(in) {
-    constexpr int gzip_or_zlib = 15 + 32;
-    if (inflateInit2(&z_, gzip_or_zlib) != Z_OK)
+  Inflater(const fs::path& file, std::ifstream& in, int form = gzip_or_zlib)
+      : file_(file), in_(in), form_(form) {
+    if (inflateInit2(&z_, form) != Z_OK)
       throw failed_error(file.string(), ": zlib cannot be started");
   }
   ~Inflater() { inflateEnd(&z_); }
@@ -58,12 +60,14 @@ class Inflater {
   }
   // Whatever else follows a gzip stream is padding.
   bool another_member() {
+    if (form_ == raw) return false;
     if (z_.avail_in == 0) refill();
     return z_.avail_in > 0 && *z_.next_in == 0x1f;
   }
 
   const fs::path& file_;
   std::ifstream& in_;
+  int form_;
   z_stream z_{};
   std::vector<unsigned char> in_buffer_ = std::vector<unsigned char>(1 << 16),
                              out_ = std::vector<unsigned char>(1 << 18);
@@ -92,6 +96,16 @@ Content inflated_content(const fs::path& file, std::streamoff start, double most
       throw input_error(file.string(), ": cannot be read to its end");
   }
   return {bytes, Packing::none};
+}
+
+std::string inflated_bytes(const fs::path& file, std::streamoff start, double most_bytes) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in.seekg(start)) throw input_error(file.string(), ": cannot be opened");
+  std::string bytes;
+  if (!(Inflater(file, in, raw).bytes(most_bytes, &bytes) <= most_bytes)) {
+    throw input_error(file.string(), ": holds more than ", most_bytes, " bytes when inflated");
+  }
+  return bytes;
 }
 
 std::vector<unsigned char> head_of(const fs::path& file) {

@@ -9,7 +9,7 @@
 #include "core/provenance.hpp"
 #include "core/temporary_folder.hpp"
 #include "core/text/lower_case.hpp"
-#include "io/volume/dicom.hpp"
+#include "io/series/choice.hpp"
 #include "io/volume/header.hpp"
 #include "io/volume/itk_image.hpp"
 #include "io/volume_file.hpp"
@@ -111,30 +111,26 @@ std::string content_hash(const Volume<float>& volume) {
 
 namespace {
 
-Volume<float> read_folder(const fs::path& folder, int series, VolumeSource& source) {
-  const std::vector<DicomSeries> list = list_dicom_series(folder);
-  if (list.empty()) throw input_error(folder.string(), ": no DICOM images in this folder");
-  const int count = static_cast<int>(list.size());
-  if (series > count || (series == 0 && count > 1)) {
-    std::string text;
-    for (int n = 0; n < count; ++n) text += message(n ? "; " : "", n + 1, " = ", list[n].label());
-    throw input_error(folder.string(), ": ", count, " series; choose one with --series N: ", text);
-  }
-  const int chosen = series == 0 ? 1 : series;
-  source.description = message("DICOM series ", chosen, ": ", list[chosen - 1].label());
-  source.patient_position = list[chosen - 1].patient_position;
-  return read_dicom_series(folder, list[chosen - 1]);
+Volume<float> read_folder(const fs::path& folder, const ScanChoice& choice, VolumeSource& source) {
+  ChosenStack chosen = chosen_stack(folder, choice);
+  source.description = message("DICOM series ", chosen.number, ": ", chosen.stack.label());
+  source.patient_position = chosen.stack.patient_position;
+  source.contrast = contrast_name(chosen.stack.first().contrast);
+  source.remarks = std::move(chosen.remarks);
+  return read_stack(chosen.stack);
 }
 
 }  // namespace
 
-Volume<float> read_volume(const fs::path& file, int series, VolumeSource* source) {
-  if (series < 0) throw input_error("series ", series, ": must be 1 or more (0 for the only one)");
+Volume<float> read_volume(const fs::path& file, const ScanChoice& choice, VolumeSource* source) {
+  if (choice.series < 0) {
+    throw input_error("series ", choice.series, ": must be 1 or more (0 for the best)");
+  }
   VolumeSource found;
   Volume<float> volume;
   std::error_code none;
   if (fs::is_directory(file, none)) {
-    volume = read_folder(file, series, found);
+    volume = read_folder(file, choice, found);
   } else if (!fs::is_regular_file(file, none)) {
     throw input_error(file.string(), ": no such file");
   } else {
@@ -147,6 +143,16 @@ Volume<float> read_volume(const fs::path& file, int series, VolumeSource* source
   found.content_sha256 = content_hash(volume);
   *source = found;
   return volume;
+}
+
+Table list_series(const fs::path& folder, const ScanChoice& choice,
+                  std::vector<std::string>& remarks) {
+  std::error_code none;
+  if (!fs::is_directory(folder, none))
+    throw input_error(folder.string(), ": is no folder of DICOM series");
+  SeriesList list = list_stacks(folder, choice);
+  remarks = std::move(list.remarks);
+  return std::move(list.table);
 }
 
 }  // namespace breast

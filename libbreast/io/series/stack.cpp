@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/series/stack.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "core/error.hpp"
+#include "core/statistics/percentile.hpp"
+#include "io/series/split.hpp"
+#include "io/volume/header.hpp"
+
+namespace breast {
+
+namespace {
+
+/// Slices of one volume are of one patient and have one pixel spacing and orientation. The message
+/// does not repeat the patient's name.
+void check_alike(const std::vector<DicomImage>& slices) {
+  const DicomImage& first = slices.front();
+  for (const DicomImage& slice : slices) {
+    if (!slice.fault.empty()) throw input_error(slice.fault);
+    if (slice.patient_id != first.patient_id || slice.patient_name != first.patient_name)
+      throw input_error(slice.file.string(),
+                        ": names another patient than the first slice of its series");
+    if (!((slice.pixel - first.pixel).cwiseAbs().maxCoeff() <= 1e-4 * first.pixel.maxCoeff())) {
+      throw input_error(slice.file.string(), ": pixel spacing ", slice.pixel[0], " x ",
+                        slice.pixel[1], " mm, the rest of the series has ", first.pixel[0], " x ",
+                        first.pixel[1], " mm");
+    }
+    if (!((slice.row - first.row).norm() < 1e-3 && (slice.column - first.column).norm() < 1e-3))
+      throw input_error(slice.file.string(),
+                        ": slice orientation differs from the rest of the series");
+  }
+}
+
+std::string name_of(const DicomImage& slice) {
+  const std::string file = slice.file.filename().string();
+  return slice.frame == 0 ? file : message(file, " (frame ", slice.frame + 1, ")");
+}
+
+/// Refuses gaps, duplicates, and slices that lie neither at equal steps (1 %) nor within 0.1 mm of equally
+/// spaced places, as positions rounded to a tenth of a mm do.
+void check_steps(const std::vector<DicomImage>& slices, const std::string& where) {
+  constexpr double equal = 0.01, rounded_mm = 0.1, rounded_part = 0.2;
+  const std::vector<double> at = places_of(slices);
+  std::vector<double> steps;
+  for (std::size_t n = 1; n < at.size(); ++n) steps.push_back(at[n] - at[n - 1]);
+  const double usual = median(steps);  // which one missing slice does not move
+  if (!(at.back() - at.front() > 1e-3)) {
+    throw input_error(where,
+                      ": all slices lie at one position, and nothing tells their images apart: "
+                      "give a folder with one volume");
+  }
+  const double mean = (at.back() - at.front()) / double(steps.size());
+  const bool even = std::abs(mean - usual) <= rounded_part * usual && [&] {
+    for (std::size_t n = 0; n < at.size(); ++n) {
+      const double off = std::abs(at[n] - at.front() - double(n) * mean);
+      if (!(off <= std::min(rounded_mm, rounded_part * usual))) return false;
+    }
+    return true;
+  }();
+  for (std::size_t n = 0; !even && n < steps.size(); ++n) {
+    if (std::abs(steps[n] - usual) <= equal * usual) continue;
+    throw input_error(where, ": slices ", name_of(slices[n]), " and ", name_of(slices[n + 1]),
+                      " are ", steps[n], " mm apart, the others ", usual,
+                      " mm (bound 1 %, or places within 0.1 mm): a slice is missing or duplicated");
+  }
+}
+
+void check_volume(const DicomStack& stack, const std::string& where) {
+  const DicomImage& first = stack.first();
+  check_alike(stack.slices);
+  if (stack.slices.size() < 2) {
+    throw input_error(where, ": series ", stack.label(), ": a volume needs at least 2 slices");
+  }
+  check_voxel_count(first.file.string(),
+                    double(first.columns) * first.rows * double(stack.slices.size()));
+  check_steps(stack.slices, where);
+}
+
+/// The side that it shows if it is less wide than both: as stated, else by its place.
+std::optional<Side> side_shown(const DicomStack& stack) {
+  constexpr double least_both_mm = 230, off_midline_mm = 40;
+  if (stack.side) return stack.side;
+  const DicomImage& first = stack.first();
+  const Vec3 extent = stack.extent();
+  const Vec3 normal = first.row.cross(first.column);
+  const double width = std::abs(first.row.x()) * extent[0] +
+                       std::abs(first.column.x()) * extent[1] + std::abs(normal.x()) * extent[2];
+  if (width >= least_both_mm) return std::nullopt;
+  if (first.laterality == "L") return Side::left;
+  if (first.laterality == "R") return Side::right;
+  const Vec3 middle = 0.5 * (first.position + stack.slices.back().position + first.row * extent[0] +
+                             first.column * extent[1]);
+  if (middle.x() > off_midline_mm) return Side::left;
+  if (middle.x() < -off_midline_mm) return Side::right;
+  return std::nullopt;
+}
+
+void finish(DicomStack& stack, const std::string& where) {
+  std::set<std::filesystem::path> files;
+  for (const DicomImage& slice : stack.slices) {
+    files.insert(slice.file);
+    const std::string& own = slice.patient_position;
+    std::string& all = stack.patient_position;
+    if (!own.empty() && all.find(own) == std::string::npos) all += (all.empty() ? "" : "/") + own;
+  }
+  stack.files = int(files.size());
+  try {
+    check_volume(stack, where);
+    stack.side = side_shown(stack);
+  } catch (const Error& error) {
+    stack.fault = error.what();
+  }
+}
+
+/// Images of one series, size and orientation. Those of a localiser, in several orientations, have one
+/// UID.
+std::vector<DicomStack> by_series(std::vector<DicomImage> images) {
+  constexpr double one_orientation = 0.1;  // of the unit vectors
+  std::map<std::pair<int, std::string>, std::vector<DicomStack>> series;
+  for (DicomImage& image : images) {
+    auto& stacks = series[{image.series_number,
+                           message(image.series_uid, "/", image.rows, "x", image.columns)}];
+    const auto alike = [&](const DicomStack& stack) {
+      const DicomImage& first = stack.first();
+      return (first.row - image.row).norm() < one_orientation &&
+             (first.column - image.column).norm() < one_orientation;
+    };
+    // An image whose place is unknown belongs to its series, which is then no volume.
+    auto own = std::find_if(stacks.begin(), stacks.end(), alike);
+    if (own == stacks.end() && !stacks.empty() && !image.fault.empty()) own = stacks.begin();
+    if (own == stacks.end()) own = stacks.insert(stacks.end(), DicomStack());
+    own->slices.push_back(std::move(image));
+  }
+  std::vector<DicomStack> list;
+  for (auto& [key, stacks] : series) {
+    for (DicomStack& stack : stacks) list.push_back(std::move(stack));
+  }
+  return list;
+}
+
+}  // namespace
+
+double DicomStack::thickness() const {
+  if (slices.size() < 2) return 0;
+  return (slices.back().position - slices.front().position).norm() / double(slices.size() - 1);
+}
+
+Vec3 DicomStack::extent() const {
+  return {first().columns * first().pixel[1], first().rows * first().pixel[0],
+          double(slices.size()) * thickness()};
+}
+
+std::string DicomStack::label() const {
+  std::string text = files == int(slices.size()) ? message(files, " files")
+                                                 : message(slices.size(), " frames in ", files,
+                                                           files == 1 ? " file" : " files");
+  text += message(" of ", first().columns, " x ", first().rows, " pixels, series number ",
+                  first().series_number);
+  if (times > 1) text += message(", time point ", time, " of ", times);
+  if (kinds > 1)
+    text += message(", ", contrast_name(first().contrast), " (kind ", kind, " of ", kinds, ")");
+  if (of_side) text += message(", ", side_name(*side), " slab");
+  return text;
+}
+
+std::vector<DicomStack> stacks_of(std::vector<DicomImage> images, const std::string& where) {
+  std::vector<DicomStack> list;
+  for (DicomStack& series : by_series(std::move(images))) {
+    const bool sound = std::all_of(series.slices.begin(), series.slices.end(),
+                                   [](const DicomImage& image) { return image.fault.empty(); });
+    if (!sound) {
+      list.push_back(std::move(series));
+      continue;
+    }
+    for (DicomStack& part : by_time_and_kind(std::move(series))) {
+      for (DicomStack& slab : by_slab(std::move(part))) list.push_back(std::move(slab));
+    }
+  }
+  for (DicomStack& stack : list) finish(stack, where);
+  return list;
+}
+
+}  // namespace breast
