@@ -61,15 +61,22 @@ class SegmentFolder : public ::testing::Test {
   ScratchFolder folder_;
 };
 
-TEST_F(SegmentFolder, SeveralSeriesAreListedAndOneIsAskedFor) {
-  for (const std::vector<std::string>& options : {std::vector<std::string>{}, {"--series", "3"}}) {
-    const ToolResult listed = segment("exam", options);
-    EXPECT_EQ(listed.exit_code, 2);
-    EXPECT_EQ(listed.error_lines(), 1) << listed.err;
-    for (const char* word : {"2 series", "--series", " 30 files of ", " 3 files of "})
-      EXPECT_NE(listed.err.find(word), std::string::npos) << word << " in " << listed.err;
-    EXPECT_FALSE(fs::exists(folder_ / "out.vtkhdf"));
+TEST_F(SegmentFolder, SeriesAreListedAndTheTakenOneIsNamed) {
+  const ToolResult listed = run_tool("segment", {"exam", "--list"}, folder_.path());
+  ASSERT_EQ(listed.exit_code, 0) << listed.err;
+  const Table table = parse_table(listed.out, "list");
+  ASSERT_EQ(table.rows.size(), 2u) << listed.out;
+  for (std::size_t row = 0; row < 2; ++row) {
+    EXPECT_EQ(table.cell(row, "use"), table.cell(row, "images") == "30" ? "taken" : "if asked for");
   }
+  EXPECT_EQ(listed.out.find("prone"), std::string::npos) << "a description may hold a name";
+  EXPECT_FALSE(fs::exists(folder_ / "out.vtkhdf"));
+  const ToolResult none = segment("exam", {"--series", "3"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_EQ(none.error_lines(), 1) << none.err;
+  for (const char* word : {"2 series", "--series", " 30 files of ", " 3 files of "})
+    EXPECT_NE(none.err.find(word), std::string::npos) << word << " in " << none.err;
+  EXPECT_FALSE(fs::exists(folder_ / "out.vtkhdf"));
 }
 
 // The scanner's record of the posture is the only one that a scan carries.
@@ -92,14 +99,13 @@ TEST_F(SegmentFolder, ASupineSeriesIsNotTakenForAProneOneWithoutAWarning) {
 }
 
 TEST_F(SegmentFolder, TheChosenSeriesGivesWhatItsOwnFileGives) {
-  const std::string listed = segment("exam", {}).err;
-  const std::size_t name = listed.find(" = 30 files of ");
-  ASSERT_NE(name, std::string::npos) << listed;
-  const std::string number(1, listed[name - 1]);  // of the list "1 = ...; 2 = ..."
-  const ToolResult chosen =
-      segment("exam", {"--series", number, "--overlay", "look.png", "--points", "p.vtp",
-                       "--measures", "m.tsv", "--report", "r.json"});
+  const ToolResult chosen = segment("exam", {"--overlay", "look.png", "--points", "p.vtp",
+                                             "--measures", "m.tsv", "--report", "r.json"});
   ASSERT_EQ(chosen.exit_code, 0) << chosen.err;
+  const std::string said = read_text(folder_ / "r.json");
+  const std::size_t name = said.find(" = 30 files of ");
+  ASSERT_NE(name, std::string::npos) << said;
+  const std::string number(1, said[name - 1]);
   const LabelVolume of_folder = read_labels(folder_ / "out.vtkhdf");
   ASSERT_EQ(segment("t1.nrrd", {}).exit_code, 0);
   const LabelVolume of_file = read_labels(folder_ / "out.vtkhdf");

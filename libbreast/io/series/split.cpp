@@ -118,10 +118,17 @@ std::vector<DicomStack> by_number(const DicomStack& stack, std::size_t wanted) {
     return a.instance_number != b.instance_number ? a.instance_number < b.instance_number
                                                   : a.frame < b.frame;
   });
-  std::map<long long, std::size_t> seen;
+  struct Place {
+    std::size_t images = 0;
+    std::pair<int, int> last;
+  };
+  std::map<long long, Place> places;
   for (const DicomImage& image : ordered) {
-    const long long place = std::llround(along_normal(image, stack.slices.front()) / same_place_mm);
-    parts[std::min(seen[place]++, wanted - 1)].push_back(image);
+    Place& place = places[std::llround(along_normal(image, stack.slices.front()) / same_place_mm)];
+    const std::pair number(image.instance_number, image.frame);
+    if (place.images > 0 && place.last == number) return {};  // nothing tells them apart
+    place.last = number;
+    parts[std::min(place.images++, wanted - 1)].push_back(image);
   }
   std::vector<DicomStack> stacks;
   for (Part& part : parts) {
