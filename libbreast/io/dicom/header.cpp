@@ -358,7 +358,7 @@ bool read_dicom_object(const fs::path& file, DicomObject& object) {
   const std::optional<std::uint64_t> start = in ? start_of(in) : std::nullopt;
   if (!start) return false;
   Walker head(file, in, object);
-  const std::uint64_t set = head.walk_meta(*start);
+  const std::uint64_t set = object.set = head.walk_meta(*start);
   object.syntax = text_of(object.header, "0002|0010");
   if (object.syntax.empty()) {
     object.syntax = head.begins_explicit(set) ? explicit_little_endian : implicit_little_endian;
@@ -399,10 +399,7 @@ bool read_dicom_header(const fs::path& file, DicomHeader& header) {
 std::string pixel_bytes(const fs::path& file, const DicomObject& object) {
   const DicomPixels& pixels = *object.pixels;
   if (object.deflated) {
-    DicomObject again;
-    std::ifstream in(file, std::ios::binary);
-    const std::uint64_t set = Walker(file, in, again).walk_meta(start_of(in).value_or(0));
-    return inflated_bytes(file, std::streamoff(set), most_inflated_bytes)
+    return inflated_bytes(file, std::streamoff(object.set), most_inflated_bytes)
         .substr(pixels.position, pixels.bytes);
   }
   std::string bytes(pixels.bytes, '\0');

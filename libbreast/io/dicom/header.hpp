@@ -29,6 +29,7 @@ struct DicomObject {
   std::optional<DicomPixels> pixels;  ///< none: a presentation state, a report
   std::string syntax;                 ///< UID of the transfer syntax
   bool big_endian = false, deflated = false;
+  std::uint64_t set = 0;  ///< where the data set begins, after the meta information
 };
 
 /// Reads the elements of a DICOM file in any transfer syntax, with or without the preamble of PS3.10.

@@ -68,6 +68,12 @@ DicomFolder find_images(const fs::path& folder) {
         throw input_error(file.string(), ": not a DICOM file (empty, truncated or foreign)");
       }
     } catch (const Error& error) {
+      // What has no pixels is passed over whether it is whole or not.
+      const std::string sop_class = text_of(object.header, "0008|0016");
+      if (!sop_class.empty() && !is_image_class(sop_class)) {
+        ++found.without_pixels[object_kind(sop_class)];
+        continue;
+      }
       found.damaged.push_back({text_of(object.header, "0020|000e"), error.what()});
       continue;
     }
