@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A rigid motion, such as that of a rib cage between two scans.
+// A rigid motion, such as that of a rib cage between two scans. Its angles are the same on every processor, because segment uses it.
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <numbers>
 
+#include "core/elementary.hpp"
 #include "core/types.hpp"
 
 namespace breast {
@@ -20,7 +22,9 @@ struct RigidMotion {
   Mat3 rotation() const {
     const double angle = turn.norm() * radians;
     if (!(angle > 0)) return Mat3::Identity();
-    return Eigen::AngleAxisd(angle, turn.normalized()).toRotationMatrix();
+    const Vec3 axis = turn.normalized();
+    const double c = elementary::cos(angle), s = elementary::sin(angle);
+    return c * Mat3::Identity() + s * cross(axis) + (1 - c) * axis * axis.transpose();
   }
   Vec3 operator()(const Vec3& x) const { return centre + rotation() * (x - centre) + shift; }
   /// The point that is mapped to y.
@@ -32,8 +36,10 @@ struct RigidMotion {
     RigidMotion both;
     both.centre = other.centre;
     both.shift = (*this)(other(other.centre)) - other.centre;
-    const Eigen::AngleAxisd turned(rotation() * other.rotation());
-    both.turn = turned.angle() / radians * turned.axis();
+    const Eigen::Quaterniond turned(Mat3(rotation() * other.rotation()));
+    const double sine = turned.vec().norm();  // of half the angle
+    const double angle = 2 * elementary::atan2(sine, std::abs(turned.w()));
+    if (sine > 0) both.turn = std::copysign(angle / radians / sine, turned.w()) * turned.vec();
     return both;
   }
   /// Derivative of the image of x with respect to `turn`, mm per degree (the left Jacobian of the
@@ -43,9 +49,9 @@ struct RigidMotion {
     Mat3 left = Mat3::Identity();
     if (angle > 1e-12) {
       const Vec3 axis = turn.normalized();
-      const double s = std::sin(angle) / angle;
+      const double s = elementary::sin(angle) / angle;
       left = s * left + (1 - s) * axis * axis.transpose() +
-             (1 - std::cos(angle)) / angle * cross(axis);
+             (1 - elementary::cos(angle)) / angle * cross(axis);
     }
     return -radians * cross(rotation() * (x - centre)) * left;
   }

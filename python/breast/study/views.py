@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Compressed views of many breasts beside what single mammograms show."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..errors import BreastError
+from .kinds import Request, kind
+from .stage_report import StageReport
+from .table import NO_VALUE, Table, fixed
+
+
+@dataclass(frozen=True)
+class Bound:
+    """What a quantity of a single view has to lie within. `key`: of the report of compress."""
+
+    name: str
+    key: str
+    decimals: int
+    low: float
+    high: float
+
+
+_ANY = float("inf")
+_BOUNDS = (Bound("thickness_mm", "thickness_mm", 1, 30, 90), Bound("paddle_N", "force_N", 1, 50, 180),
+           Bound("pressure_kPa", "pressure_kPa", 1, 5, 30),
+           Bound("contact_percent", "coverage/contact_percent_of_projected", 0, 40, _ANY),
+           Bound("paddle_edge_percent", "plates/paddle/edge_force_percent", 0, -_ANY, 40),
+           Bound("detector_edge_percent", "plates/detector/edge_force_percent", 0, -_ANY, 40),
+           Bound("min_scaled_jacobian", "min_scaled_jacobian", 3, 0.1, _ANY))
+_VOLUME = {"CC": Bound("volume_percent", "coverage/volume_percent", 0, 55, _ANY),
+           "": Bound("volume_percent", "coverage/volume_percent", 0, 90, _ANY)}
+_TURN = Bound("turn_deg", "turn_deg", 0, -15, 15)
+_NIPPLE, _ROUNDING = "coverage/nipple_in_front_mm", 0.005
+"""A force that ends a path is met to half a per cent."""
+
+
+def _outside(bound: Bound, report: StageReport) -> bool:
+    value = report.number(bound.key)
+    return value is None or not bound.low * (1 - _ROUNDING) <= value <= bound.high * (1 + _ROUNDING)
+
+
+def views_table(runs: list[Path]) -> Table:
+    """One row a view of each run that has one: its numbers, the CC and MLO nipple lines' difference, and which bounds it misses.
+
+    The bounds of docs/methods.md (Target and grip) are applied to the numbers of the report here again, whatever compress itself said.
+    The turn of the plates' edge, at most 15 degrees in CC, is listed as missed too, but no view is refused for it. The last two rows
+    are the means of each view, and how many of its rows miss none of the other bounds.
+    """
+    numbers = [bound.name for bound in (*_BOUNDS, _VOLUME[""], _TURN)]
+    table = Table(["breast", "view", "status", *numbers, "nipple_to_edge_mm", "cc_minus_mlo_mm", "iterations", "cpu_seconds", "missed"])
+    rows: dict[str, list[tuple[StageReport, bool]]] = {"CC": [], "MLO": []}
+    for run in runs:
+        reports = {view: StageReport.read(run / f"{view.lower()}.json") for view in rows}
+        lines = [report.number(_NIPPLE) for report in reports.values()]
+        apart = NO_VALUE if None in lines else fixed(lines[0] - lines[1], 1)  # type: ignore[operator]
+        for view, report in reports.items():
+            if not report:
+                continue
+            bounds = (*_BOUNDS, _VOLUME.get(view, _VOLUME[""]))
+            missed = [bound.name for bound in bounds if _outside(bound, report)]
+            turned = [_TURN.name] if view == "CC" and _outside(_TURN, report) else []
+            table.rows.append([run.name, view, report.text("status"),
+                               *(fixed(report.number(b.key), b.decimals) for b in (*bounds, _TURN)), fixed(report.number(_NIPPLE), 1),
+                               apart, fixed(report.number("newton_iterations"), 0), fixed(report.number("cpu_seconds"), 0),
+                               ", ".join(missed + turned) or "none"])
+            rows[view].append((report, not missed))
+    for view, found in rows.items():
+        if found:
+            table.rows.append(_means(view, found))
+    return table
+
+
+def _means(view: str, found: list[tuple[StageReport, bool]]) -> list[str]:
+    def mean(key: str, decimals: int) -> str:
+        values = [value for report, _ in found if (value := report.number(key)) is not None]
+        return fixed(sum(values) / len(values), decimals) if values else NO_VALUE
+    met = sum(good for _, good in found)
+    return ["mean", view, NO_VALUE, *(mean(b.key, b.decimals) for b in (*_BOUNDS, _VOLUME[""], _TURN)), mean(_NIPPLE, 1), NO_VALUE,
+            mean("newton_iterations", 0), mean("cpu_seconds", 0), f"{met} of {len(found)} miss none"]
+
+
+@kind("views", "RUN...", "compressed views of finished cases, one row a view, beside what single mammograms show: what each misses")
+def _views(request: Request) -> Table:
+    table = views_table(list(map(Path, request.words)))
+    if not table.rows:
+        raise BreastError(f"{request.word(0)}: holds no cc.json and no mlo.json; give the folders of finished cases, as runs/CASE")
+    return table
