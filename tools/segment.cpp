@@ -55,7 +55,7 @@ void declare(Tool& tool, Choices& c) {
   tool.choice(c.posture, "--posture", {"prone", "supine"}, "how the patient lies");
   tool.integer(
       c.series, "--series", "N",
-      "which series of a DICOM folder, by its number in --list (0: the best, by the rule of `scan`)",
+      "which series of a DICOM folder, numbered as in its list (0: the best, by the rule of `scan`)",
       0, 10000);
   tool.question(c.list, "--list",
                 "print the table of the series of a DICOM folder, as `scan` does, and end");
