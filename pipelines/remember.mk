@@ -26,4 +26,4 @@ record = printf '%s\n' $(call quoted,$(strip $($1_settings))) > $(call record_fi
 stage = $(call staged,$(call record_file,$1),$($1_settings))
 pressed = $(call staged,$(call record_file,$1),$($1_settings),--keep $@)
 of_pressed = $(call staged,$(call record_file,$1),$($1_settings),--of '$(filter $(made_of_pressed),$^)')
-made_of_pressed = $(addprefix $(RUN)/,cc.% mlo.% cc-sensitivity.% mlo-sensitivity.% truth-cc-sensitivity.% truth-mlo-sensitivity.%)
+made_of_pressed = $(addprefix $(RUN)/,cc.% mlo.% cc-sensitivity.% mlo-sensitivity.%)
