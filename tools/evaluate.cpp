@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // evaluate: the distance of a segmentation or a surface from the truth.
+#include <algorithm>
+#include <cmath>
 #include <optional>
+#include <vector>
 
 #include "cli/tool.hpp"
 #include "core/error.hpp"
@@ -52,6 +55,16 @@ Origin origin_of(const std::filesystem::path& file, const std::optional<LabelVol
                 : breast::origin_of(file, surface);
 }
 
+/// The voxels of a code, one entry a voxel; empty without a code.
+std::vector<bool> voxels_of(const Volume<float>& volume, int code) {
+  std::vector<bool> has;
+  if (code == 0) return has;
+  for (const float value : volume.voxels) has.push_back(std::lround(value) == code);
+  if (std::find(has.begin(), has.end(), true) == has.end())
+    throw input_error("--half-code ", code, ": TRUTH has no voxel of this code");
+  return has;
+}
+
 /// A volume that goes with the truth, at its place.
 Volume<float> read_beside(const std::filesystem::path& file, const std::string& option,
                           const Origin& truth, Pairs& pairs) {
@@ -66,7 +79,7 @@ Volume<float> read_beside(const std::filesystem::path& file, const std::string& 
 int main(int argc, char** argv) {
   std::filesystem::path given_file, truth_file, region_file, fraction_file;
   std::vector<std::string> code_texts;
-  int region_code = 0, nipple_code = 0;
+  int region_code = 0, nipple_code = 0, half_code = 0;
   std::string accept_other;
   bool curves = false, own_side = false;
   Tool tool("evaluate", "agreement of a segmentation or a surface with the truth");
@@ -78,6 +91,8 @@ int main(int argc, char** argv) {
           "except air, where both volumes have voxels). It also contains the distance between the "
           "chest walls along y, where the true breast has muscle behind it, and the distances "
           "between the breasts' surfaces (accurate to half a voxel) and between the nipples. "
+          "fibroglandular_in_breast and wall_on_breast are counted only within the breast of GIVEN, "
+          "for truth in which the breast has no border. "
           "Otherwise, the table contains the distances between the surfaces.")
       .cite("Dice 1945, Ecology 26(3):297-302");
   tool.input(given_file, "GIVEN",
@@ -102,6 +117,10 @@ int main(int argc, char** argv) {
   tool.integer(nipple_code, "--nipple-code", "CODE",
                "code of the nipple in TRUTH; the point of the skin nearest to the centre of its "
                "voxels is taken as the true nipple",
+               1, 65535);
+  tool.integer(half_code, "--half-code", "CODE",
+               "code of voxels of TRUTH that are half fibroglandular tissue: each counts as half a "
+               "voxel in fibroglandular_in_breast_dice",
                1, 65535);
   tool.input_file(fraction_file, "--fraction", "FILE",
                   "true fibroglandular fraction of every voxel (0-1 or 0-255); prints also the "
@@ -153,8 +172,10 @@ int main(int argc, char** argv) {
         throw input_error("--nipple-code ", nipple_code, ": the breast has no voxel of this code");
       truth_labels->landmarks["nipple"] = *centre;
     }
-    if (given_labels && truth_labels)
-      tell(label_quantities(*given_labels, *truth_labels), table, run.report());
+    if (given_labels && truth_labels) {
+      const std::vector<bool> half = voxels_of(foreign, half_code);
+      tell(label_quantities(*given_labels, *truth_labels, half), table, run.report());
+    }
     if (given_labels && truth_labels && !fraction_file.empty()) {
       const Volume<float> fraction = read_beside(fraction_file, "--fraction", of_truth, pairs);
       tell(fraction_quantities(compare_fractions(*given_labels, *truth_labels, fraction)), table,

@@ -104,4 +104,32 @@ LabelOverlap compare_labels(const LabelVolume& given, const LabelVolume& truth) 
   return result;
 }
 
+double gland_dice_in_breast(const LabelVolume& given, const LabelVolume& truth,
+                            const std::vector<bool>& half) {
+  const Grid& grid = given.grid;
+  double found = 0, known = 0, both = 0;
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int j = 0; j < grid.size[1]; ++j) {
+      for (int i = 0; i < grid.size[0]; ++i) {
+        const Tissue ours = given.at(i, j, k);
+        if (!is_breast(ours)) continue;
+        const Vec3 at = truth.grid.to_index(grid.to_patient(Vec3(i, j, k)));
+        const int ti = int(std::lround(at.x())), tj = int(std::lround(at.y())),
+                  tk = int(std::lround(at.z()));
+        if (!truth.grid.contains(ti, tj, tk)) continue;
+        const Tissue theirs = truth.at(ti, tj, tk);
+        if (theirs == Tissue::tumour) continue;
+        const bool is_half = !half.empty() && half[truth.grid.offset(ti, tj, tk)];
+        const double weight = is_half ? 0.5 : 1;
+        const bool a = ours == Tissue::fibroglandular,
+                   b = is_half || theirs == Tissue::fibroglandular;
+        found += a ? weight : 0;
+        known += b ? weight : 0;
+        both += a && b ? weight : 0;
+      }
+    }
+  }
+  return found + known > 0 ? 2 * both / (found + known) : 1;
+}
+
 }  // namespace breast

@@ -25,4 +25,11 @@ struct LabelOverlap {
 /// so that truth beyond the edge of the given volume counts against it.
 LabelOverlap compare_labels(const LabelVolume& given, const LabelVolume& truth);
 
+/// Dice coefficient of fibroglandular tissue over the voxels that are breast in `given`, each of
+/// which is compared with the nearest voxel of the truth; for truth in which the breast has no
+/// border. Voxels of the truth with `half` (one entry a voxel, or empty) are half fibroglandular:
+/// each counts as half a voxel of it. The truth's tumour is not counted. 1 without such tissue.
+double gland_dice_in_breast(const LabelVolume& given, const LabelVolume& truth,
+                            const std::vector<bool>& half = {});
+
 }  // namespace breast

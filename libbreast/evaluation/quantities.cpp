@@ -22,7 +22,8 @@ std::vector<Quantity> fraction_quantities(const PartialVolume& fractions) {
           plain("fibroglandular_dice_ceiling", fractions.ceiling, 4)};
 }
 
-std::vector<Quantity> label_quantities(const LabelVolume& given, const LabelVolume& truth) {
+std::vector<Quantity> label_quantities(const LabelVolume& given, const LabelVolume& truth,
+                                       const std::vector<bool>& half) {
   std::vector<Quantity> all;
   const auto add = [&all](const std::string& name, const Overlap& overlap) {
     if (overlap.given_ml == 0 && overlap.truth_ml == 0) return;
@@ -35,12 +36,18 @@ std::vector<Quantity> label_quantities(const LabelVolume& given, const LabelVolu
     add(std::string(tissue_name(static_cast<Tissue>(t))), overlap.tissue[std::size_t(t)]);
   add("breast", overlap.breast);
   add("body", overlap.body);
+  all.push_back({"fibroglandular_in_breast_dice", "dice/fibroglandular_in_breast",
+                 gland_dice_in_breast(given, truth, half), 4});
   const WallDistance wall = compare_walls(given, truth);
   if (wall.columns > 0) {
     const auto distances = distance_quantities("wall", wall.distance);
     all.insert(all.end(), distances.begin(), distances.end());
     all.push_back({"wall_bias_mm", "wall/bias_mm", wall.bias_mm, 3});
     all.push_back({"wall_missing_percent", "wall/missing_percent", wall.missing_percent, 2});
+  }
+  if (wall.columns_on_breast > 0) {
+    const auto distances = distance_quantities("wall_on_breast", wall.on_breast);
+    all.insert(all.end(), distances.begin(), distances.end());
   }
   const auto a = given.landmarks.find("nipple"), b = truth.landmarks.find("nipple");
   if (a != given.landmarks.end() && b != truth.landmarks.end())

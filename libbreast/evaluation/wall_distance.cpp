@@ -59,12 +59,21 @@ double breast_end(const Sampler& labels, Vec3 p, double to) {
   return end;
 }
 
-/// The first muscle along y; NaN if there is none.
-double first_muscle(const Sampler& labels, Vec3 p, double to) {
+struct FoundWall {
+  double y = nan;  ///< the first muscle along y; NaN if there is none
+  bool behind_breast = false;
+};
+
+FoundWall first_muscle(const Sampler& labels, Vec3 p, double to) {
+  FoundWall found;
   for (; p[1] < to; p[1] += step) {
-    if (labels.at(p) == Tissue::muscle) return p[1] - 0.5 * step;
+    const Tissue tissue = labels.at(p);
+    found.behind_breast = found.behind_breast || is_breast(tissue);
+    if (tissue != Tissue::muscle) continue;
+    found.y = p[1] - 0.5 * step;
+    break;
   }
-  return nan;
+  return found;
 }
 
 }  // namespace
@@ -78,7 +87,7 @@ WallDistance compare_walls(const LabelVolume& given, const LabelVolume& truth) {
   const int nx = int(box.sizes()[0] / lattice) + 1, nz = int(box.sizes()[2] / lattice) + 1;
   constexpr double reach = 60;  // mm behind the true breast
   std::vector<double> moved(std::size_t(nx) * nz, nan);
-  std::vector<char> counted(moved.size(), 0);
+  std::vector<char> counted(moved.size(), 0), behind_breast(moved.size(), 0);
 #pragma omp parallel for num_threads(threads()) schedule(dynamic)
   for (int k = 0; k < nz; ++k) {
     for (int i = 0; i < nx; ++i) {
@@ -87,10 +96,12 @@ WallDistance compare_walls(const LabelVolume& given, const LabelVolume& truth) {
       if (std::isnan(end)) continue;
       const std::size_t column = std::size_t(k) * nx + i;
       counted[column] = 1;
-      moved[column] = first_muscle(ours, from, box.max()[1] + reach) - end;
+      const FoundWall found = first_muscle(ours, from, box.max()[1] + reach);
+      moved[column] = found.y - end;
+      behind_breast[column] = found.behind_breast;
     }
   }
-  std::vector<double> sizes;
+  std::vector<double> sizes, on_breast;
   double missing = 0;
   for (std::size_t n = 0; n < moved.size(); ++n) {
     if (!counted[n]) continue;
@@ -100,12 +111,15 @@ WallDistance compare_walls(const LabelVolume& given, const LabelVolume& truth) {
       continue;
     }
     sizes.push_back(std::abs(moved[n]));
+    if (behind_breast[n]) on_breast.push_back(sizes.back());
     result.bias_mm += moved[n];
   }
   if (result.columns > 0) result.missing_percent = 100 * missing / result.columns;
   if (sizes.empty()) return result;
   result.bias_mm /= double(sizes.size());
   result.distance = summarise(sizes);
+  result.columns_on_breast = double(on_breast.size());
+  if (!on_breast.empty()) result.on_breast = summarise(on_breast);
   return result;
 }
 

@@ -123,8 +123,39 @@ TEST(WallDistance, IsTheShiftAlongY) {
   EXPECT_EQ(moved.columns, 20 * 20);
   const WallDistance none = compare_walls(walled(cube(20, 2), 1e3), walled(cube(20, 2), 20));
   EXPECT_EQ(none.missing_percent, 100);
+  EXPECT_EQ(none.columns_on_breast, 0);
   EXPECT_EQ(compare_walls(walled(cube(20, 2), 20), half(cube(20, 2), 20)).columns, 0)
       << "a true breast without muscle behind it has no wall";
+}
+
+TEST(WallDistance, OnTheBreastLeavesOutWhatIsNotLabelledBreast) {
+  // The given wall is 2 mm too deep where x < 20 mm, which is breast, and 10 mm beside it, which is
+  // other tissue.
+  LabelVolume given = walled(cube(40, 1), 22);
+  for (int k = 0; k < 40; ++k)
+    for (int j = 0; j < 40; ++j)
+      for (int i = 20; i < 40; ++i)
+        given.tissue[given.grid.offset(i, j, k)] =
+            std::uint8_t(j < 30 ? Tissue::other : Tissue::muscle);
+  const WallDistance all = compare_walls(given, walled(cube(20, 2), 20));
+  EXPECT_NEAR(all.distance.mean_mm, 6, 0.3);
+  EXPECT_NEAR(all.on_breast.mean_mm, 2, 0.2);
+  EXPECT_NEAR(all.on_breast.max_mm, 2, 0.2);
+  EXPECT_EQ(all.columns, 20 * 20);
+  EXPECT_EQ(all.columns_on_breast, 10 * 20);
+}
+
+TEST(Overlap, GlandInTheBreastCountsHalfVoxelsHalf) {
+  Grid grid = cube(1, 2);
+  grid.size = {8, 1, 1};
+  LabelVolume given = half(grid, 100), truth = given;
+  //               both  missed  half found  half missed  false  tumour  beside the breast, twice
+  given.tissue = {2, 1, 2, 1, 2, 2, 6, 6};
+  truth.tissue = {2, 2, 1, 1, 1, 5, 2, 2};
+  const std::vector<bool> of_half = {false, false, true, true, false, false, false, true};
+  EXPECT_DOUBLE_EQ(gland_dice_in_breast(given, truth, of_half), 2 * 1.5 / (2.5 + 3));
+  EXPECT_DOUBLE_EQ(gland_dice_in_breast(given, truth), 2 * 1.0 / (3 + 2));
+  EXPECT_DOUBLE_EQ(gland_dice_in_breast(half(grid, 100), half(grid, 100)), 1);
 }
 
 TEST(Overlap, BodyCountsWhereBothHaveVoxels) {
