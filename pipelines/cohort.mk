@@ -17,7 +17,7 @@ $(CASE_LIST): FORCE
 	@$(CASES) list $(COHORT) $(PIPELINES) --quiet > $@.part && mv $@.part $@
 
 # Sides only go from the scan to the supine shape, without plates.
-cohort_goal := $(if $(filter sides,$(MAKECMDGOALS)),side,summary)
+cohort_goal := $(if $(filter sides sides-table,$(MAKECMDGOALS)),side,summary)
 
 # This rule always runs: the make of each case decides what is out of date. Its exit code is recorded and not passed on.
 cohort_make = $(MAKE) -f $(PIPELINE) COHORT= CLUSTER= RUNS=$(COHORT_RUNS)
@@ -48,6 +48,7 @@ cohort: $(COHORT_CASES:%=$(COHORT_RUNS)/%.status)
 endif
 sides: $(COHORT_CASES:%=$(COHORT_RUNS)/%.status)
 	@$(tabulate) sides $(COHORT_RUNS)
+	@$(CASES) any-done $(COHORT_RUNS)/sides.tsv --quiet
 .PHONY: cohort cohort-table cohort-script sides
 endif
 
@@ -55,5 +56,6 @@ endif
 # case names some (LABELS_TRUTH, with EVALUATE_OPTIONS such as its codes).
 .PHONY: side
 side: $(if $(LABELS_TRUTH),$(RUN)/labels-truth.tsv) $(RUN)/supine.vtkhdf
-$(RUN)/labels-truth.tsv: $(RUN)/labels.vtkhdf $(LABELS_TRUTH) $(EVALUATE)
-	$(call table,$(EVALUATE) $< $(LABELS_TRUTH) $(EVALUATE_OPTIONS) --quiet)
+labels-truth_settings := $(EVALUATE) $(call named,$(LABELS_TRUTH)) $(EVALUATE_OPTIONS)
+$(RUN)/labels-truth.tsv: $(RUN)/labels.vtkhdf $(LABELS_TRUTH) $(EVALUATE) $(call changed,labels-truth)
+	$(call prints,labels-truth,$@) $(EVALUATE) $< $(LABELS_TRUTH) $(EVALUATE_OPTIONS) --quiet

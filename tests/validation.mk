@@ -20,6 +20,12 @@ population-table: population
 	$(tabulate) made $(TABLES_OF_PAGE)/sliding.tsv $(POPULATION_RUNS)/judging.json
 	$(tabulate) pages fill $(PAGES_WITH_TABLES)
 .PHONY: population-table
+# Of docs/validation/geometry.md: sides of real women (COHORT=DIR).
+sides-table: sides
+	cp $(COHORT_RUNS)/sides.tsv $(TABLES_OF_PAGE)/sides.tsv
+	$(tabulate) made $(TABLES_OF_PAGE)/sides.tsv $(COHORT_RUNS)/sides.tsv
+	$(tabulate) pages fill $(PAGES_WITH_TABLES)
+.PHONY: sides-table
 
 # Of docs/validation/sliding.md: the cohort between plates, and how the compressed shape depends on the mesh, on friction and on the
 # length of the steps (tests/bench/plates.tsv), of the preset average by 50 %.

@@ -60,16 +60,18 @@ double breast_end(const Sampler& labels, Vec3 p, double to) {
 }
 
 struct FoundWall {
-  double y = nan;  ///< the first muscle along y; NaN if there is none
-  bool behind_breast = false;
+  double y = nan;              ///< the first muscle along y; NaN if there is none
+  bool behind_breast = false;  ///< what lies directly in front of it is breast
 };
 
 FoundWall first_muscle(const Sampler& labels, Vec3 p, double to) {
   FoundWall found;
   for (; p[1] < to; p[1] += step) {
     const Tissue tissue = labels.at(p);
-    found.behind_breast = found.behind_breast || is_breast(tissue);
-    if (tissue != Tissue::muscle) continue;
+    if (tissue != Tissue::muscle) {
+      found.behind_breast = is_breast(tissue);
+      continue;
+    }
     found.y = p[1] - 0.5 * step;
     break;
   }

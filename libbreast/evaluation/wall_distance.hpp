@@ -12,7 +12,7 @@ struct WallDistance {
   double bias_mm = 0;          ///< mean of given - true: positive when the given wall is deeper
   double columns = 0;          ///< number of compared columns
   double missing_percent = 0;  ///< of the true breast's columns without a wall in the given volume
-  Distances on_breast;         ///< |dy|, mm, where the given volume has breast in front of its wall
+  Distances on_breast;         ///< |dy|, mm, where the given wall is directly behind breast
   double columns_on_breast = 0;
 };
 

@@ -6,8 +6,9 @@ import unittest
 
 from breast.errors import BreastError
 from breast.study.advice import Advice, Warned, gather, read_advice
-from breast.study.cohort import cohort_cost, cohort_table, read_cases, side_table
+from breast.study.cohort import cohort_cost, cohort_table, read_cases
 from breast.study.documents import markdown_table, run_line, with_run, with_tables, wrong_numbers
+from breast.study.sides import side_table
 from breast.study.stage_report import StageReport, failure_of, posture_failure_of
 from breast.study.summary import aligned, folded
 from breast.study.table import Table
@@ -191,10 +192,13 @@ class Cohort(InFolder):
         for stage in ("labels", "geometry", "mesh"):
             self.write(f"left/{stage}.vtkhdf")
         self.write("left/labels.json", '{"chest_wall": {"sigma_mean_mm": 1.52}, "cpu_seconds": 9, "peak_mb": 305}')
-        self.write("left/geometry.json", '{"fit": {"mean_mm": 0.1, "p95_mm": 0.31}, "mended": ["the rim was moved"]}')
+        self.write("left/geometry.json", '{"fit": {"mean_mm": 0.1, "p95_mm": 0.51}, "volumes_ml": {"labels": 500}, "mended": ["the rim was moved"]}')
         self.write("left/mesh.json", '{"min_scaled_jacobian": 0.431, "volume_ml": 512.3, "mended": ["layers"], "cpu_seconds": 2}')
-        self.write("left/labels-truth.tsv", "quantity\tvalue\nbody_dice\t0.9921\nwall_p95_mm\t1.6\n")
+        self.write("left/reference.json", '{"closure_mm": 2.345e-10}')
+        self.write("left/labels-truth.tsv", "quantity\tvalue\nbody_dice\t0.9921\nfibroglandular_in_breast_dice\t0.95\n"
+                   "wall_on_breast_mean_mm\t0.4\nwall_on_breast_p95_mm\t2.3\nwall_mean_mm\t5\n")
         left, right = side_table(self.folder, read_cases(self.folder))
         self.assertEqual(" ".join(left.values()),
-                         "left mesh 0.992 - - 1.6 1.5 0.10 0.31 0.43 512 11 305 the rim was moved; layers -")
-        self.assertEqual((right["reached"], right["reason"]), ("-", "no chest wall"))
+                         "left done mesh 0.992 0.950 0.4 2.3 5.0 - 1.5 0.10 0.51 0.43 512 500 2.3e-10 11 305 the rim was moved; layers "
+                         "supine, wall_p95_mm, fit_p95_mm -")
+        self.assertEqual((right["reached"], right["missed"], right["reason"]), ("-", "supine", "no chest wall"))

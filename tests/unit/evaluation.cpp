@@ -129,14 +129,14 @@ TEST(WallDistance, IsTheShiftAlongY) {
 }
 
 TEST(WallDistance, OnTheBreastLeavesOutWhatIsNotLabelledBreast) {
-  // The given wall is 2 mm too deep where x < 20 mm, which is breast, and 10 mm beside it, which is
-  // other tissue.
+  // The given wall is 2 mm too deep behind breast, where x < 20 mm, and 10 mm behind other tissue.
   LabelVolume given = walled(cube(40, 1), 22);
   for (int k = 0; k < 40; ++k)
     for (int j = 0; j < 40; ++j)
       for (int i = 20; i < 40; ++i)
-        given.tissue[given.grid.offset(i, j, k)] =
-            std::uint8_t(j < 30 ? Tissue::other : Tissue::muscle);
+        given.tissue[given.grid.offset(i, j, k)] = std::uint8_t(j < 20   ? Tissue::fat
+                                                                : j < 30 ? Tissue::other
+                                                                         : Tissue::muscle);
   const WallDistance all = compare_walls(given, walled(cube(20, 2), 20));
   EXPECT_NEAR(all.distance.mean_mm, 6, 0.3);
   EXPECT_NEAR(all.on_breast.mean_mm, 2, 0.2);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tables of the cases of a cohort: the result of each case, what should be checked, how far each side gets, and the cost."""
+"""Tables of the cases of a cohort: the result of each case, what should be checked, and the cost."""
 from __future__ import annotations
 
 import os
@@ -18,8 +18,6 @@ from .kinds import Request, kind
 from .stage_report import StageReport
 from .summary import lines_of, tumour_origin
 from .table import NO_VALUE, Table, fixed, number_of, one_line, or_dash, read_table, table_if_any
-
-_SIDE_STAGES = ("labels", "geometry", "mesh", "reference", "supine")
 
 
 @dataclass(frozen=True)
@@ -108,40 +106,6 @@ def cohort_cost(runs: Path, cases: list[Case]) -> Table:
     return table
 
 
-def side_table(runs: Path, cases: list[Case]) -> Table:
-    """How far each side gets from the scan to the supine shape, and how well: one row a case.
-
-    The last stage reached; agreement of the labels with the truth (labels-truth.tsv, where the case has one) and the wall's own
-    uncertainty; distance of the skin's fit; worst scaled Jacobian; volume within the rim; CPU seconds and memory of all stages; what
-    was mended; and the reason why the case ended.
-    """
-    truths = (("body_dice", 3), ("fibroglandular_dice", 3), ("wall_mean_mm", 1), ("wall_p95_mm", 1))
-    table = Table(["case", "reached", "body_dice", "gland_dice", "wall_mean_mm", "wall_p95_mm", "wall_stated_mm", "fit_mean_mm",
-                   "fit_p95_mm", "min_scaled_jacobian", "volume_ml", "cpu_s", "peak_mb", "mended", "reason"])
-    cost = cohort_cost(runs, cases)
-    for case in cases:
-        run = runs / case.name
-        labels, geometry, mesh = (StageReport.read(run / f"{stage}.json") for stage in ("labels", "geometry", "mesh"))
-        truth = table_if_any(run / "labels-truth.tsv")
-        table.rows.append([
-            case.name, _reached(run), *(fixed(truth.number_at(name, "value"), n) if truth else NO_VALUE for name, n in truths),
-            fixed(labels.number("chest_wall/sigma_mean_mm"), 1), fixed(geometry.number("fit/mean_mm"), 2),
-            fixed(geometry.number("fit/p95_mm"), 2), fixed(mesh.number("min_scaled_jacobian"), 2), fixed(mesh.number("volume_ml"), 0),
-            cost.at(case.name, "cpu_seconds"), cost.at(case.name, "peak_mb"),
-            or_dash("; ".join(geometry.texts("mended") + mesh.texts("mended"))), or_dash(case.reason)])
-    return table
-
-
-def _reached(run: Path) -> str:
-    """The last stage whose file is there, with those before it."""
-    last = NO_VALUE
-    for stage in _SIDE_STAGES:
-        if not exists(run / f"{stage}.vtkhdf"):
-            break
-        last = stage
-    return last
-
-
 def _measure_motion(run: Path, population: str) -> bool:
     """Tabulates the motion of a case's tissue if its mesh has a chest wall to measure from, again if the supine shape is newer.
     Returns whether there is one."""
@@ -180,15 +144,6 @@ def _cohort(request: Request) -> str:
     write_text(runs / "cohort.html", cohort_page(pages))
     write_text(runs / "contours.html", contours_page(pages))
     return table.text()
-
-
-@kind("sides", "RUNS",
-      "table of all cases in RUNS/.cases, written to RUNS/sides.tsv and printed: how far each side gets from the scan to the supine "
-      "shape, and how well")
-def _sides(request: Request) -> str:
-    text = side_table(request.path(0), read_cases(request.path(0))).text()
-    write_text(request.path(0) / "sides.tsv", text)
-    return text
 
 
 @kind("case-cost", "RUNS CORES ELEMENT ELEMENTS",

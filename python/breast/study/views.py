@@ -2,43 +2,29 @@
 """Compressed views of many breasts beside what single mammograms show."""
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import BreastError
+from .bounds import ANY, Bound
 from .kinds import Request, kind
 from .stage_report import StageReport
 from .table import NO_VALUE, Table, fixed
 
-
-@dataclass(frozen=True)
-class Bound:
-    """What a quantity of a single view has to lie within. `key`: of the report of compress."""
-
-    name: str
-    key: str
-    decimals: int
-    low: float
-    high: float
-
-
-_ANY = float("inf")
 _BOUNDS = (Bound("thickness_mm", "thickness_mm", 1, 30, 90), Bound("paddle_N", "force_N", 1, 50, 180),
            Bound("pressure_kPa", "pressure_kPa", 1, 5, 30),
-           Bound("contact_percent", "coverage/contact_percent_of_projected", 0, 40, _ANY),
-           Bound("paddle_edge_percent", "plates/paddle/edge_force_percent", 0, -_ANY, 40),
-           Bound("detector_edge_percent", "plates/detector/edge_force_percent", 0, -_ANY, 40),
-           Bound("min_scaled_jacobian", "min_scaled_jacobian", 3, 0.1, _ANY))
-_VOLUME = {"CC": Bound("volume_percent", "coverage/volume_percent", 0, 55, _ANY),
-           "": Bound("volume_percent", "coverage/volume_percent", 0, 90, _ANY)}
+           Bound("contact_percent", "coverage/contact_percent_of_projected", 0, 40, ANY),
+           Bound("paddle_edge_percent", "plates/paddle/edge_force_percent", 0, -ANY, 40),
+           Bound("detector_edge_percent", "plates/detector/edge_force_percent", 0, -ANY, 40),
+           Bound("min_scaled_jacobian", "min_scaled_jacobian", 3, 0.1, ANY))
+_VOLUME = {"CC": Bound("volume_percent", "coverage/volume_percent", 0, 55, ANY),
+           "": Bound("volume_percent", "coverage/volume_percent", 0, 90, ANY)}
 _TURN = Bound("turn_deg", "turn_deg", 0, -15, 15)
 _NIPPLE, _ROUNDING = "coverage/nipple_in_front_mm", 0.005
 """A force that ends a path is met to half a per cent."""
 
 
 def _outside(bound: Bound, report: StageReport) -> bool:
-    value = report.number(bound.key)
-    return value is None or not bound.low * (1 - _ROUNDING) <= value <= bound.high * (1 + _ROUNDING)
+    return bound.missed_by(report.number(bound.key), _ROUNDING)
 
 
 def views_table(runs: list[Path]) -> Table:
