@@ -201,7 +201,8 @@ refused "a cohort's case with code in its name" "refused" -- COHORT="$work/cohor
 cohort; printf 'MR = x.nrrd\n' > "$work/cohort/a/case.txt"; printf 'PRESET = small\n' > "$work/cohort/b.case"
 plan COHORT="$work/cohort" cohort || { cat "$work/err"; fail "a cohort of good cases is planned"; }
 plan COHORT="$work/cohort" sides && grep -q 'any-done .*/sides.tsv' "$work/out" || { cat "$work/err"; fail "sides fail when all fail"; }
-plan MR=x.nrrd SIDE=left LABELS_TRUTH=/dev/null EVALUATE_OPTIONS="--half-code 34" side || { cat "$work/err"; fail "a side with truth"; }
+touch "$work/x.nrrd"
+plan MR="$work/x.nrrd" SIDE=left LABELS_TRUTH=/dev/null EVALUATE_OPTIONS="--half-code 34" side || { cat "$work/err"; fail "a side with truth"; }
 grep -q 'stage [^ ]*/\.labels-truth\.settings .*--half-code 34' "$work/out" || fail "the options of a comparison are remembered"
 printf 'case\tstatus\na\tfailed\nb\tfailed\n' > "$work/t.tsv"
 ! "$bin/cases" any-done "$work/t.tsv" --quiet 2> /dev/null || fail "a cohort whose cases all fail fails"
