@@ -2,14 +2,16 @@
 # Results for people: the page of both views, the run for 3D Slicer, expected values, and one self-contained report.
 
 # ---- pointing at either view draws curve, band and arc in the other -----------------------------------------
-page_scan := $(if $(filter yes,$(PAGE_SCAN)),--scan $(MR) $(if $(SERIES),--series $(SERIES)))
+page_scan := $(if $(filter yes,$(PAGE_SCAN)),$(MR) $(SERIES))
 # With friction or a wall on springs there are no derivatives yet: the page then shows curves without bands.
 derivatives := $(if $(findstring --friction,$(COMPRESS_OPTIONS))$(findstring spring:,$(COMPRESS_OPTIONS)),,-sensitivity)
 page_states := $(RUN)/cc$(derivatives).vtkhdf $(RUN)/mlo$(derivatives).vtkhdf
-lookup_settings := $(MATCH_LOOKUP) $(page_states) $(page_scan)
-$(RUN)/lookup.h5 $(RUN)/page.html &: $(page_states) $(RUN)/cc.vti $(RUN)/mlo.vti $(if $(page_scan),$(MR_FILES)) $(MATCH_LOOKUP) $(call changed,lookup)
-	$(call of_pressed,lookup) $(MATCH_LOOKUP) $(page_states) $(RUN)/lookup.h5 --page $(RUN)/page.html --pitch 1 \
-	  --from-image $(RUN)/cc.vti --to-image $(RUN)/mlo.vti $(page_scan) --report $(RUN)/lookup.json $(share)
+lookup_settings := $(MATCH_LOOKUP) $(page_states)
+$(RUN)/lookup.h5: $(page_states) $(MATCH_LOOKUP) $(call changed,lookup)
+	$(call of_pressed,lookup) $(MATCH_LOOKUP) $(page_states) $@ --both-ways --pitch 1 $(common)
+page_settings := $(TABULATE) $(page_scan)
+$(RUN)/page.html: $(RUN)/lookup.h5 $(RUN)/cc.vti $(RUN)/mlo.vti $(if $(page_scan),$(MR_FILES)) $(TABULATE) $(call changed,page)
+	$(call prints,page,$@) $(tabulate) page $(RUN) $(page_scan)
 page: $(RUN)/page.html
 	$(gripped)
 

@@ -41,7 +41,7 @@ full-disk:
 	$(BUILD)/tests/tools_killed_writer
 
 # Programs that read the formats of tests/fuzz/whole-tools.py, and of which what reads is sanitized.
-readers := export-slicer probe evaluate laws export-deck match-lookup segment hexmesh cc2mlo truth-table
+readers := export-slicer probe evaluate laws export-deck pairs match-lookup segment hexmesh cc2mlo truth-table
 SANITIZED := build/readers
 whole-tools:
 	cmake --build $(BUILD) -j $$(nproc) --target programs fault_inputs

@@ -77,9 +77,6 @@ const std::vector<PairRule>& pair_rules() {
       {"cc2mlo", "MLO", "--mlo-image", {side}},
       {"cc2mlo", "--cc-image", "--mlo-image", {side, patient}, {patient}},
       {"match-lookup", "CC", "MLO", {side, mesh, model}, {model}},
-      {"match-lookup", "CC", "--from-image", {side, mesh, model}, {model}},
-      {"match-lookup", "MLO", "--to-image", {side, mesh, model}, {model}},
-      {"match-lookup", "CC", "--scan", {scan}},
       {"identify", "MESH", "--labels", {scan, side}},
       {"identify", "MESH", "--second-labels", {side}},
       {"identify", "--second-labels", "--surface", {scan}},
@@ -102,6 +99,10 @@ const std::vector<PairRule>& pair_rules() {
       {"render", "FILE.vti", "FILE.vtp", {mesh, model}, {model}},
       {"render", "--labels", "FILE", {scan, side}},
       {"render", "--labels", "--scan", {scan}},
+      {"tabulate", "cc.vtkhdf", "mlo.vtkhdf", {side, mesh}},
+      {"tabulate", "cc.vtkhdf", "cc.vti", {side, mesh, model}},
+      {"tabulate", "mlo.vtkhdf", "mlo.vti", {side, mesh, model}},
+      {"tabulate", "cc.vtkhdf", "SCAN", {scan}},
   };
   return rules;
 }

@@ -54,10 +54,13 @@ class Lookup:
         return j, i
 
 
-def read_lookup(file: str | os.PathLike[str]) -> Lookup:
-    """A lookup (schema lookup/1). Raises BreastError, one line, when it is not what docs/file-formats.md says."""
+def read_lookup(file: str | os.PathLike[str], back: bool = False) -> Lookup:
+    """A lookup (schema lookup/1); with `back` that of the points of the second image, which match-lookup --both-ways writes.
+
+    Raises BreastError, one line, when the file is not what docs/file-formats.md says.
+    """
     doc = read_document(file, "lookup/1")
-    group = "/breast/lookup"
+    group = "/breast/lookup_back" if back else "/breast/lookup"
     views = ("CC", "MLO", "ML")
     pitch = doc.number(f"{group}@pitch_mm")
     if not pitch > 0:

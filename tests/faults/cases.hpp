@@ -61,10 +61,7 @@ inline const std::vector<Case>& cases() {
        "cc2mlo cc.vtkhdf mlo.vtkhdf out.vtp --point 20,37 --cc-image cc.dcm --mlo-image "
        "mlo.dcm --picture out.png --curve-table out.tsv",
        8},
-      {"match_lookup",
-       "match-lookup cc.vtkhdf mlo.vtkhdf out.h5 --pitch 20 --page out.html --from-image "
-       "cc.vti --to-image mlo.vti",
-       9},
+      {"match_lookup", "match-lookup cc.vtkhdf mlo.vtkhdf out.h5 --pitch 20 --both-ways", 9},
       {"export_inp", "export-deck cap_reference.vtkhdf out.inp --without-skin"},
       {"export_feb", "export-deck cap_reference.vtkhdf out.feb --without-skin"},
       {"export_slicer", "export-slicer . out --spacing 12", 120},

@@ -33,7 +33,8 @@ import small_run  # noqa: E402
 COMPRESS = "compress reference.vtkhdf out.vtkhdf --view CC --reduction 5 --at-least 1"
 CURVE = "cc2mlo cc.vtkhdf mlo.vtkhdf out.vtp --landmark tumour"
 BAND = "cc2mlo cc-slopes.vtkhdf mlo-slopes.vtkhdf out.vtp --landmark tumour --band"
-PAGE = "match-lookup cc.vtkhdf mlo.vtkhdf out.h5 --pitch 40 --page out.html --from-image cc.vti --to-image mlo.vti"
+LOOKUP = "match-lookup cc.vtkhdf mlo.vtkhdf out.h5 --pitch 40 --both-ways"
+PAGE = "tabulate page ."
 FIGURE = "render cc.vti mlo.vti curve.vtp --figure mammogram -o out.png"
 # The tools that read a file, the quickest first.
 TOOLS = {
@@ -46,9 +47,9 @@ TOOLS = {
     "reference.vtkhdf": ["probe reference.vtkhdf", "forward reference.vtkhdf out.vtkhdf",
                          "sensitivity reference.vtkhdf supine.vtkhdf out.vtkhdf", COMPRESS],
     "supine.vtkhdf": ["probe supine.vtkhdf", "sensitivity reference.vtkhdf supine.vtkhdf out.vtkhdf"],
-    "cc.vtkhdf": ["probe cc.vtkhdf", CURVE, "project-mammogram cc.vtkhdf out.vti --pixel 2", PAGE,
+    "cc.vtkhdf": ["probe cc.vtkhdf", CURVE, "project-mammogram cc.vtkhdf out.vti --pixel 2", LOOKUP,
                   "sensitivity reference.vtkhdf cc.vtkhdf out.vtkhdf", "render cc.vtkhdf mlo.vtkhdf --figure pressure -o out.png"],
-    "mlo.vtkhdf": ["probe mlo.vtkhdf", CURVE, PAGE],
+    "mlo.vtkhdf": ["probe mlo.vtkhdf", CURVE, LOOKUP],
     "nodes.vtkhdf": ["probe nodes.vtkhdf", "sensitivity reference.vtkhdf nodes.vtkhdf out.vtkhdf"],
     "cc-slopes.vtkhdf": [BAND, "difference cc-slopes.vtkhdf cc.vtkhdf cc.vtkhdf out.vtkhdf"],
     "cc.vti": [FIGURE, PAGE],

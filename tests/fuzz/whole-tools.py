@@ -190,8 +190,7 @@ FORMATS = {
                                      ('series/slice_0015.dcm', 'segment FOLDER out.nrrd --side left', 1)]),
     'dicom_mammogram': (damaged_bytes, [('cc.dcm', 'cc2mlo IN/cc.vtkhdf IN/mlo.vtkhdf out.vtp --point 20,37 --cc-image BAD '
                                                    '--mlo-image IN/mlo.dcm', 1)]),
-    'vti': (vtk_xml, [('cc.vti', 'match-lookup IN/cc.vtkhdf IN/mlo.vtkhdf out.h5 --pitch 40 --page out.html --from-image '
-                                 'BAD --to-image IN/mlo.vti', 1)]),
+    'vti': (vtk_xml, [('cc.vti', 'pairs tabulate --check=cc.vtkhdf=IN/cc.vtkhdf --check=cc.vti=BAD', 1)]),
     'vtp': (vtk_xml, [('skin.vtp', LABELS, 1), ('curve.vtp', 'export-slicer RUN out --no-fields', 1)]),
     'table': (damaged_text, [('landmarks.tsv', 'truth-table BAD out.tsv IN/cc.vtkhdf IN/fine_cc.vtkhdf', 1)]),
     'materials': (damaged_text, [(MATERIALS + n, 'laws BAD', 1) for n in ('seed2008.tsv', 'victre.tsv')]),

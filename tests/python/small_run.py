@@ -21,7 +21,7 @@ compress reference.vtkhdf mlo.vtkhdf --view MLO --reduction 30 --at-least 20 --r
 project-mammogram cc.vtkhdf cc.vti --labels labels.vtkhdf --png cc.png --pixel 1 --report cc-mammogram.json
 project-mammogram mlo.vtkhdf mlo.vti --labels labels.vtkhdf --png mlo.png --pixel 1 --report mlo-mammogram.json
 cc2mlo cc.vtkhdf mlo.vtkhdf curve.vtp --landmark tumour --table curve.tsv --report curve.json
-match-lookup cc.vtkhdf mlo.vtkhdf lookup.h5 --pitch 5"""
+match-lookup cc.vtkhdf mlo.vtkhdf lookup.h5 --pitch 5 --both-ways"""
 
 
 def tool(line: str, folder: pathlib.Path) -> str:
@@ -80,6 +80,7 @@ def swept() -> pathlib.Path:
     for file in demo().iterdir():
         if file.is_file():
             shutil.copy(file, run)
+    tool("match-lookup cc.vtkhdf mlo.vtkhdf lookup.h5 --pitch 40 --both-ways", run)
     tool("compress reference.vtkhdf nodes.vtkhdf --view CC --reduction 5 --at-least 1 --standoff 10", run)
     for view in ("cc", "mlo"):
         tool(f"sensitivity reference.vtkhdf {view}.vtkhdf {view}-slopes.vtkhdf --parameters main", run)

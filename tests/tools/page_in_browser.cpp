@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page of match-lookup in a real browser: it draws what the matcher finds, in both directions, and
+// The page of both views in a real browser: it draws what the matcher finds, in both directions, and
 // obeys mouse, keyboard and touch. Needs Chromium (Debian: chromium) and Python.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <fstream>
 
+#include "core/atomic_file.hpp"
 #include "fixtures/chain_files.hpp"
 #include "fixtures/run_tool.hpp"
 #include "fixtures/scratch_folder.hpp"
@@ -46,12 +47,12 @@ Volume<std::int16_t> scan() {
 }
 
 void write_page(const std::filesystem::path& folder, const std::string& name,
-                const std::vector<std::string>& more) {
-  std::vector<std::string> words{"cc.vtkhdf",    "mlo.vtkhdf", "lookup.h5",  "--page",  name,
-                                 "--from-image", "cc.vti",     "--to-image", "mlo.vti", "--quiet"};
-  words.insert(words.end(), more.begin(), more.end());
-  const ToolResult page = run_tool("match-lookup", words, folder);
+                const std::vector<std::string>& scan) {
+  std::vector<std::string> words{"page", ".", "--quiet"};
+  words.insert(words.begin() + 2, scan.begin(), scan.end());
+  const ToolResult page = run_tool("tabulate", words, folder);
   ASSERT_EQ(page.exit_code, 0) << page.err;
+  write_text(folder / name, page.out);
 }
 
 }  // namespace
@@ -72,7 +73,12 @@ TEST_P(PageInBrowser, DrawsWhatTheMatcherFindsAndObeysMouseKeysAndTouch) {
   write_volume(folder / "scan.nrrd", scan());
   write_mammogram(folder / "cc.vti", project_mammogram(cc, {.pixel = 0.5}));
   write_mammogram(folder / "mlo.vti", project_mammogram(mlo, {.pixel = 0.5}));
-  write_page(folder.path(), "page.html", {"--scan", "scan.nrrd"});
+  ASSERT_EQ(
+      run_tool("match-lookup", {"cc.vtkhdf", "mlo.vtkhdf", "lookup.h5", "--both-ways", "--quiet"},
+               folder.path())
+          .exit_code,
+      0);
+  write_page(folder.path(), "page.html", {"scan.nrrd"});
   write_page(folder.path(), "without.html", {});
   const Matcher there(cc, mlo), back(mlo, cc);
   {

@@ -93,19 +93,6 @@ const std::map<std::string, Trial>& trials() {
        {"match-lookup a/cc.vtkhdf a/mlo.vtkhdf o.h5 --pitch 25",
         {"match-lookup a/cc.vtkhdf a/stiff-mlo.vtkhdf o.h5 --pitch 25",
          "match-lookup a/cc.vtkhdf a/fine-mlo.vtkhdf o.h5 --pitch 25"}}},
-      {"match-lookup CC --from-image",
-       {"match-lookup a/cc.vtkhdf a/mlo.vtkhdf o.h5 --pitch 25 --page o.html --from-image a/cc.vti --to-image a/mlo.vti",
-        {"match-lookup a/cc.vtkhdf a/mlo.vtkhdf o.h5 --pitch 25 --page o.html --from-image b/cc.vti --to-image a/mlo.vti",
-         "match-lookup a/cc.vtkhdf a/mlo.vtkhdf o.h5 --pitch 25 --page o.html --from-image a/stiff-cc.vti --to-image "
-         "a/mlo.vti"}}},
-      {"match-lookup MLO --to-image",
-       {"match-lookup a/cc.vtkhdf a/mlo.vtkhdf o.h5 --pitch 25 --page o.html --from-image a/cc.vti --to-image a/mlo.vti",
-        {"match-lookup a/cc.vtkhdf a/mlo.vtkhdf o.h5 --pitch 25 --page o.html --from-image a/cc.vti --to-image b/mlo.vti"}}},
-      {"match-lookup CC --scan",
-       {"match-lookup a/cc.vtkhdf a/mlo.vtkhdf o.h5 --pitch 25 --page o.html --from-image a/cc.vti --to-image a/mlo.vti "
-        "--scan a/scan.nrrd",
-        {"match-lookup a/cc.vtkhdf a/mlo.vtkhdf o.h5 --pitch 25 --page o.html --from-image a/cc.vti --to-image a/mlo.vti "
-         "--scan b/scan.nrrd"}}},
       {"identify MESH --labels",
        {"identify a/mesh.vtkhdf o.tsv --materials seed2008 --nipple 0,20,0 --labels a/labels.vtkhdf --second-labels b/labels.vtkhdf",
         {"identify a/mesh.vtkhdf o.tsv --materials seed2008 --nipple 0,20,0 --labels b/labels.vtkhdf --second-labels b/labels.vtkhdf"},
@@ -185,6 +172,13 @@ const std::map<std::string, Trial>& trials() {
       {"render --labels --scan",
        {"render a/mesh.vtkhdf --figure slices --scan a/scan.nrrd --labels a/labels.vtkhdf -o o.png",
         {"render a/mesh.vtkhdf --figure slices --scan b/scan.nrrd --labels a/labels.vtkhdf -o o.png"}}},
+      {"tabulate cc.vtkhdf mlo.vtkhdf",
+       {"tabulate page page", {"tabulate page page-mlo", "tabulate page page-fine"}}},
+      {"tabulate cc.vtkhdf cc.vti",
+       {"tabulate page page", {"tabulate page page-image", "tabulate page page-stiff"}}},
+      {"tabulate mlo.vtkhdf mlo.vti", {"tabulate page page", {"tabulate page page-mlo-image"}}},
+      {"tabulate cc.vtkhdf SCAN",
+       {"tabulate page page a/scan.nrrd", {"tabulate page page b/scan.nrrd"}}},
   };
   return list;
 }
@@ -273,6 +267,24 @@ class Pair : public ::testing::TestWithParam<PairRule> {
     for (const auto& [name, change] : replaced) {
       fs::create_directory(*folder_ / name);
       for (const char* file : {"labels.vtkhdf", "mesh.vtkhdf", "supine.vtkhdf", "curve.vtp"})
+        fs::copy_file(*folder_ / "a" / file, *folder_ / name / file);
+      fs::copy_file(*folder_ / change.second, *folder_ / name / change.first,
+                    fs::copy_options::overwrite_existing);
+    }
+    write_pages();
+  }
+  static void write_pages() {
+    const std::map<std::string, std::pair<std::string, std::string>> replaced = {
+        {"page", {"cc.vti", "a/cc.vti"}},
+        {"page-mlo", {"mlo.vtkhdf", "b/mlo.vtkhdf"}},
+        {"page-fine", {"mlo.vtkhdf", "a/fine-mlo.vtkhdf"}},
+        {"page-image", {"cc.vti", "b/cc.vti"}},
+        {"page-stiff", {"cc.vti", "a/stiff-cc.vti"}},
+        {"page-mlo-image", {"mlo.vti", "b/mlo.vti"}}};
+    must("match-lookup a/cc.vtkhdf a/mlo.vtkhdf a/lookup.h5 --pitch 25 --both-ways");
+    for (const auto& [name, change] : replaced) {
+      fs::create_directory(*folder_ / name);
+      for (const char* file : {"cc.vtkhdf", "mlo.vtkhdf", "cc.vti", "mlo.vti", "lookup.h5"})
         fs::copy_file(*folder_ / "a" / file, *folder_ / name / file);
       fs::copy_file(*folder_ / change.second, *folder_ / name / change.first,
                     fs::copy_options::overwrite_existing);

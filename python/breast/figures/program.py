@@ -2,16 +2,15 @@
 """The program render."""
 from __future__ import annotations
 
-import os
 import subprocess
-import sys
 import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..command.beside import ended, readable_scan, started
 from ..command.nearest import suggestion
 from ..command.tool import Run, Tool
-from ..errors import BreastError, Failed
+from ..errors import BreastError
 from ..output import check_replaceable, write_bytes
 from . import FIGURES
 from .of_run import PICTURES
@@ -20,8 +19,6 @@ if TYPE_CHECKING:
     from .inputs import Inputs
 
 _ENDINGS = (".vtkhdf", ".vti", ".vtp", ".tsv")
-SCAN_ENDINGS = (".nrrd", ".nhdr", ".nii", ".nii.gz", ".mha", ".mhd")
-"""Of scans that are read in Python."""
 
 
 def main() -> int:
@@ -80,7 +77,7 @@ def _render(run: Run) -> None:
         try:
             from .reading import inputs_of_figure, inputs_of_run
             files, labels = [Path(file) for file in args.file], Path(args.labels) if args.labels else None
-            scan = _scan(args, Path(folder))
+            scan = readable_scan(Path(args.scan), args.series, Path(folder)) if args.scan else None
             if args.all:
                 drawn = inputs_of_run(files, scan, labels, args.only.split(",") if args.only else [])
             else:
@@ -113,37 +110,6 @@ def _draw(drawn: list[tuple[str, str, Inputs]], targets: list[Path]) -> None:
             write_bytes(target, content)
 
 
-def _scan(args: Any, folder: Path) -> Path | None:
-    """The file of the scan; what is read in C++ alone, a DICOM folder, is copied by the tool scan."""
-    file = Path(args.scan) if args.scan else None
-    if file is not None and (file.is_dir() or not file.name.lower().endswith(SCAN_ENDINGS)):
-        copy = folder / "scan.nrrd"
-        _ended("scan", _started("scan", [str(file), str(copy), "--series", str(args.series), "--quiet"]))
-        return copy
-    return file
-
-
-# ---- programs beside this one -----------------------------------------------------------------------------------------------
-
-def _started(name: str, words: list[str]) -> subprocess.Popen[bytes]:
-    program = Path(sys.argv[0]).resolve().with_name(name)
-    try:
-        return subprocess.Popen([program, *words], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-    except OSError as error:
-        raise Failed(f"cannot be started ({error.strerror})", program) from None
-
-
-def _ended(name: str, child: subprocess.Popen[bytes]) -> list[str]:
-    """What a program said when it has succeeded, line by line. Raises the error with which it ended."""
-    said = os.fsdecode(child.communicate()[1]).splitlines()
-    lines = [line.removeprefix(f"{name}: ") for line in said]
-    if child.returncode == 2 and lines:
-        raise BreastError(lines[-1])
-    if child.returncode != 0:
-        raise Failed(lines[-1] if lines else f"{name} ended with {child.returncode}")
-    return lines
-
-
 def _started_pairs(args: Any) -> subprocess.Popen[bytes] | None:
     """Checks that the files are of one breast; only outlines may compare several, and tables are of none."""
     files = [file for file in args.file if not file.endswith(".tsv") and (args.all or args.figure != "outlines")]
@@ -156,9 +122,9 @@ def _started_pairs(args: Any) -> subprocess.Popen[bytes] | None:
     if not named:
         return None
     accepted = ["--accept-other", args.accept_other] if args.accept_other else []
-    return _started("pairs", ["render", "--series", str(args.series), *accepted, *(f"--check={name}" for name in named)])
+    return started("pairs", ["render", "--series", str(args.series), *accepted, *(f"--check={name}" for name in named)])
 
 
 def _finish_pairs(child: subprocess.Popen[bytes] | None, run: Run) -> None:
-    for remark in _ended("pairs", child) if child is not None else []:
+    for remark in ended("pairs", child) if child is not None else []:
         run.remark(remark)

@@ -68,11 +68,11 @@ def data_uri(picture: bytes, kind: str) -> str:
     return f"data:image/{kind};base64,{b64encode(picture).decode()}"
 
 
-def page(template: str, **context: Any) -> str:
-    """The page of templates/NAME.html.jinja; its style is NAME.css. Bytes that are not UTF-8 become U+FFFD."""
+def page(template: str, folder: Path = _TEMPLATES, **context: Any) -> str:
+    """The page of NAME.html.jinja in a folder of templates. Bytes that are not UTF-8 become U+FFFD."""
     import jinja2
 
-    loader = jinja2.FileSystemLoader(_TEMPLATES)
+    loader = jinja2.FileSystemLoader([folder, _TEMPLATES])
     environment = jinja2.Environment(loader=loader, autoescape=True, trim_blocks=True, lstrip_blocks=True,
                                      undefined=jinja2.StrictUndefined)
     return valid(environment.get_template(f"{template}.html.jinja").render(**context))

@@ -1,6 +1,6 @@
 'use strict';
 // What the program wrote: images, curves of both directions, outline, and perhaps the scan.
-const data = "DATA";
+const data = JSON.parse(document.getElementById('data').textContent);
 function bytes(text) {
   if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);  // browsers since 2025
   const characters = atob(text), out = new Uint8Array(characters.length);

@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the scripts of the page read: images, curves of both directions, the outline of the breast and perhaps the scan, packed.
+
+Arrays are base64 of little-endian numbers; the scripts' data.js and lookup.js unpack them.
+"""
+from __future__ import annotations
+
+from base64 import b64encode
+from typing import Any
+
+import numpy as np
+
+from ..elements import FACE_CORNERS
+from ..errors import BreastError
+from ..figures.mammogram import hung
+from ..grid import Grid
+from ..lookup import Lookup
+from ..mammogram import Mammogram
+from ..state import State
+from ..volume import Volume
+
+LARGEST_PAGE = 25_000_000  # bytes
+_UNIT = 0.01  # mm of packed lengths
+_MOST_NODES = 14000
+_FINEST_PIXEL = 0.25  # mm
+_MARGIN = 15  # mm of the scan about the breast
+_MOST_VOXELS = 3_000_000
+
+
+def landmarks_of(state: State) -> list[str]:
+    """The names in the mesh of the landmarks that the page marks; that of a tumour may be artificial_tumour."""
+    return [name for name in ("nipple", "tumour", "artificial_tumour") if name in state.landmarks]
+
+
+def box_of(state: State) -> tuple[np.ndarray, np.ndarray]:
+    """Lowest and highest corner (3) of the imaged shape, LPS mm."""
+    return state.imaged.min(0), state.imaged.max(0)
+
+
+def packed_image(image: Mammogram, compressed: State) -> dict[str, Any]:
+    """The picture in clinical orientation, 16 bits, with every n-th pixel so that pixels are at least a quarter millimetre, and the
+    landmarks of `compressed` in it."""
+    skip = max(1, int(_FINEST_PIXEL / image.pixel_mm + 0.5))
+    grey = hung(image)
+    shown = np.rint(65535 * grey[::skip, ::skip]).astype("<u2")
+    rows, columns = grey.shape
+    places = [(name, image.project(compressed.landmark_position(name)[None])[0]) for name in landmarks_of(compressed)]
+    return {"view": image.view, "width": shown.shape[1], "height": shown.shape[0], "pixel": image.pixel_mm * skip,
+            "u_mm": image.pixel_mm * (columns - 1), "v_mm": image.pixel_mm * (rows - 1),
+            "landmarks": [{"name": name, "at": at.tolist()} for name, at in places], "grey": _array(shown)}
+
+
+def packed_lookup(lookup: Lookup, middle: np.ndarray) -> dict[str, Any]:
+    """The curves of a grid, only for nodes in tissue; coordinates reach at most 327 mm from `middle` (columns) or the image's corner.
+
+    A grid with more than 14 000 nodes in tissue is thinned, so that a direction takes at most 7 MB.
+    """
+    stride = 1
+    while np.count_nonzero(lookup.status[::stride, ::stride]) > _MOST_NODES:
+        stride += 1
+    status = lookup.status[::stride, ::stride]
+    tissue = status != 0
+
+    def packed(values: np.ndarray, kind: str, step: float = _UNIT) -> str:
+        bounds = np.iinfo(kind)
+        return _array(np.clip(np.rint(values / step), bounds.min, bounds.max).astype(kind))
+
+    def kept(values: np.ndarray) -> np.ndarray:
+        return values[::stride, ::stride][tissue].astype(float)
+    return {"pitch": lookup.pitch_mm * stride, "nu": status.shape[1], "nv": status.shape[0], "samples": lookup.curve_mm.shape[2],
+            "status": _array(status.astype("u1")), "depth": packed(kept(lookup.depth_mm), "<u2"),
+            "curve": packed(kept(lookup.curve_mm), "<i2"), "deviation": packed(kept(lookup.deviation_mm), "<u2"),
+            "across": packed(kept(lookup.across), "i1", 1 / 127), "imaged": packed(kept(lookup.imaged_mm) - middle, "<i2")}
+
+
+def packed_body(state: State) -> dict[str, Any]:
+    """Edges of skin, chest wall and cut in the frame of the scan, mm, with nipple and tumour."""
+    def edges(faces: np.ndarray) -> str:
+        corners = state.hexahedra[faces[:, 0, None], FACE_CORNERS[faces[:, 1]]]
+        ends = np.stack([corners, np.roll(corners, -1, 1)], -1).reshape(-1, 2)
+        return _array(state.imaged[np.unique(np.sort(ends, 1), axis=0)].astype("<f4"))
+    low, high = box_of(state)
+    return {"middle": (0.5 * (low + high)).tolist(), "skin": edges(state.faces["skin"]), "wall": edges(state.faces["pectoral"]),
+            "cut": edges(state.faces["cut"]),
+            "landmarks": [{"name": name, "at": state.landmark_position(name, "imaged").tolist()} for name in landmarks_of(state)]}
+
+
+def packed_scan(scan: Volume, state: State) -> dict[str, Any]:
+    """The scan in the box of the imaged breast and 15 mm about it, so that it holds only the part of the patient that the page shows.
+
+    8 bits between the 1st and the 99.5th percentile, axes along the patient's, voxels of at least 1 x 1 x 2 mm, at most 3 million.
+    Raises BreastError where the scan does not cover the breast.
+    """
+    low, high = box_of(state)
+    grid = _grid_about(low - _MARGIN, high + _MARGIN)
+    k, j, i = np.indices(grid.size[::-1]).reshape(3, -1)
+    values = scan.sample(grid.to_patient(np.stack([i, j, k], -1)), np.nan)
+    inside = np.sort(values[np.isfinite(values)])
+    if len(inside) < len(values) // 4:
+        raise BreastError(f"covers {100 * len(inside) // len(values)} % of the bounding box of the imaged breast", scan.file,
+                          "give the scan that was segmented")
+    dark, bright = (float(inside[int(rank * (len(inside) - 1))]) for rank in (0.01, 0.995))
+    grey = np.nan_to_num(np.rint(255 * np.clip((values - dark) / max(bright - dark, 1e-30), 0, 1)))
+    return {"size": list(grid.size), "spacing": grid.spacing.tolist(), "origin": grid.origin.tolist(), "grey": _array(grey.astype("u1"))}
+
+
+def _grid_about(low: np.ndarray, high: np.ndarray) -> Grid:
+    """The grid of a box along the patient's axes, coarser if the box is large."""
+    coarser = 1.0
+    while True:
+        spacing = coarser * np.array([1.0, 1.0, 2.0])
+        size = 1 + ((high - low) / spacing).astype(int)
+        if size.prod() <= _MOST_VOXELS:
+            return Grid((int(size[0]), int(size[1]), int(size[2])), spacing, low, np.eye(3))
+        coarser *= 1.1
+
+
+def _array(values: np.ndarray) -> str:
+    return b64encode(np.ascontiguousarray(values).tobytes()).decode()
