@@ -11,7 +11,7 @@ $(RUN)/lookup.h5: $(page_states) $(MATCH_LOOKUP) $(call changed,lookup)
 	$(call of_pressed,lookup) $(MATCH_LOOKUP) $(page_states) $@ --both-ways --pitch 1 $(common)
 page_settings := $(TABULATE) $(page_scan)
 $(RUN)/page.html: $(RUN)/lookup.h5 $(RUN)/cc.vti $(RUN)/mlo.vti $(if $(page_scan),$(MR_FILES)) $(TABULATE) $(call changed,page)
-	$(call prints,page,$@) $(tabulate) page $(RUN) $(page_scan)
+	$(call staged,$(call record_file,page),$(page_settings),--of '$(filter $(made_of_pressed),$^)' --prints $@) $(tabulate) page $(RUN) $(page_scan)
 page: $(RUN)/page.html
 	$(gripped)
 
