@@ -208,6 +208,25 @@ void AtomicFolder::commit() {
   }
 }
 
+void AtomicFolder::replace() {
+  try {
+    replace_folder(temporary_, target_);
+  } catch (const fs::filesystem_error& error) {
+    throw failed_error(target_.string(), ": cannot be replaced (", error.code().message(), ")");
+  }
+}
+
+void replace_folder(const fs::path& finished, const fs::path& target) {
+  if (!fs::exists(target)) {
+    fs::rename(finished, target);
+    return;
+  }
+  const fs::path old = finished.string() + "-old";
+  fs::rename(target, old);
+  fs::rename(finished, target);
+  fs::remove_all(old);
+}
+
 void remove_stale_parts(const fs::path& target) {
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
   const std::string prefix = part_prefix(target);
@@ -216,8 +235,7 @@ void remove_stale_parts(const fs::path& target) {
     const std::string name = entry.path().filename().string();
     if (!name.starts_with(prefix)) continue;
     std::string owner_text = name.substr(prefix.size());
-    if (owner_text.ends_with("-old"))
-      owner_text.resize(owner_text.size() - 4);  // write_dicom_series
+    if (owner_text.ends_with("-old")) owner_text.resize(owner_text.size() - 4);  // replace_folder
     const bool number = !owner_text.empty() && owner_text.size() < 10 &&
                         owner_text.find_first_not_of("0123456789") == std::string::npos;
     if (!number) continue;  // somebody else's, such as .scan.nrrd.part-notes

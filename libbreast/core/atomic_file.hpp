@@ -40,12 +40,18 @@ class AtomicFolder {
   /// Moves the files. Throws Error (failed) naming the target, or Error (input) if the target
   /// contains another program's file of the same name.
   void commit();
+  /// Puts the folder in the place of the target as a whole: nothing of an older one stays. The caller
+  /// has checked that everything in it may go. Throws Error (failed) naming the target.
+  void replace();
 
  private:
   std::filesystem::path target_, temporary_;
   std::string last_;
 };
 
+/// Renames `finished` to `target`, in the place of an older folder of that name, which is removed.
+/// Throws std::filesystem::filesystem_error.
+void replace_folder(const std::filesystem::path& finished, const std::filesystem::path& target);
 /// Removes `.NAME.part-PID` files of processes that no longer run; PID is digits and nothing else.
 void remove_stale_parts(const std::filesystem::path& target);
 /// The whole file as text. Throws Error (input) naming the file, also if it is not a regular file

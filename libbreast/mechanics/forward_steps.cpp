@@ -58,11 +58,16 @@ bool ForwardSteps::stays(const State& state) {
                          definite(nearly_incompressible));
 }
 
-// An unstable equilibrium is not accepted as a solution.
 NewtonResult ForwardSteps::run(const Eigen::VectorXd& load, State& state) {
+  return run([&load](double part) -> Eigen::VectorXd { return part * load; }, state);
+}
+
+// An unstable equilibrium is not accepted as a solution.
+NewtonResult ForwardSteps::run(const std::function<Eigen::VectorXd(double)>& load_at,
+                               State& state) {
   LoadSteps steps;
   steps.divide = !fail_fast_;
-  steps.set_load = [&](double part) { loaded_.set_load(part * load); };
+  steps.set_load = [&](double part) { loaded_.set_load(load_at(part)); };
   steps.solve = [&](State& trial, double from, double to) { return attempt(trial, from, to); };
   LoadReached reached = follow_load(steps, state);
   if (!reached.whole()) {

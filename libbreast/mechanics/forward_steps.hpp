@@ -3,6 +3,7 @@
 // found, for a body in one piece and for one that several processes share.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "mechanics/load_steps.hpp"
@@ -21,6 +22,9 @@ class ForwardSteps {
   /// Increases the load from `state` to `load` (nodal forces, µN) and judges the last equilibrium,
   /// which `state` then is.
   NewtonResult run(const Eigen::VectorXd& load, State& state);
+  /// The same for a load (nodal forces, µN) that is `load_at` of a part of the way, 0 to 1; `state` is
+  /// the solution for load_at(0).
+  NewtonResult run(const std::function<Eigen::VectorXd(double)>& load_at, State& state);
   /// Whether a stable equilibrium is found in one step under the present load.
   bool stands(State& state) { return attempt(state, 0, 1).converged && stays(state); }
 

@@ -7,6 +7,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/report.hpp"
+#include "core/table.hpp"
 #include "fixtures/run_tool.hpp"
 #include "fixtures/scratch_folder.hpp"
 #include "fixtures/shapes.hpp"
@@ -174,6 +175,53 @@ TEST_F(MechanicsTools, NotConvergedIsExitThree) {
   EXPECT_EQ(run("forward reference.vtkhdf far.vtkhdf --keep-unconverged" + load), 3);
   ASSERT_TRUE(exists("far.vtkhdf"));
   EXPECT_EQ(read_mesh(folder_ / "far.vtkhdf").solve->status, SolveStatus::not_converged);
+}
+
+// The states on the way are meshes that every tool reads; the last is the result; a run without them
+// leaves none of an older result.
+TEST_F(MechanicsTools, StatesOfTheTurn) {
+  ASSERT_EQ(run("backward mesh.vtkhdf reference.vtkhdf --materials seed2008"), 0) << said_.err;
+  ASSERT_EQ(run("forward reference.vtkhdf supine.vtkhdf --states 5 --report s.json"), 0)
+      << said_.err;
+  const Table table = read_table(folder_ / "supine-states/states.tsv");
+  ASSERT_EQ(table.rows.size(), 5u);
+  for (std::size_t k = 0; k < 5; ++k) {
+    EXPECT_EQ(table.cell(k, "status"), "converged");
+    EXPECT_LT(table.number(k, "residual"), 1e-9);
+    EXPECT_NEAR(table.number(k, "way_percent"), 25.0 * double(k), 1e-9);
+    const HexMesh state = read_mesh(folder_ / "supine-states" / table.cell(k, "file"));
+    EXPECT_EQ(state.gravity.y(), table.number(k, "gravity_y_mm_s2"));
+    EXPECT_EQ(landmark_position(state, state.points, state.landmarks.at(0)),
+              table.point(k, state.landmarks.at(0).name + "_"));
+    EXPECT_TRUE(state.model);
+  }
+  EXPECT_LT(report("s.json").number("states/turned_to_result_mm"), 1e-6);
+  const HexMesh result = read_mesh(folder_ / "supine.vtkhdf"),
+                last = read_mesh(folder_ / "supine-states/state_005.vtkhdf");
+  EXPECT_EQ(result.content_sha256, last.content_sha256);
+  EXPECT_NE(read_text(folder_ / "supine-states/states.vtkhdf.series").find("state_005.vtkhdf"),
+            std::string::npos);
+  ASSERT_EQ(run("forward reference.vtkhdf supine.vtkhdf --states 2"), 0) << said_.err;
+  EXPECT_FALSE(exists("supine-states/state_003.vtkhdf"));
+  EXPECT_TRUE(exists("supine-states/state_002.vtkhdf"));
+  ASSERT_EQ(run("forward reference.vtkhdf supine.vtkhdf"), 0) << said_.err;
+  EXPECT_FALSE(exists("supine-states"));
+  EXPECT_EQ(read_mesh(folder_ / "supine.vtkhdf").content_sha256, result.content_sha256)
+      << "the states leave the result as it is";
+}
+
+TEST_F(MechanicsTools, StatesThatCannotBe) {
+  ASSERT_EQ(run("backward mesh.vtkhdf reference.vtkhdf --materials seed2008"), 0) << said_.err;
+  EXPECT_EQ(run("forward reference.vtkhdf out.vtkhdf --states 1"), 2);
+  EXPECT_EQ(run("forward reference.vtkhdf out.vtkhdf --states 3 --posture prone"), 2);
+  EXPECT_NE(said_.err.find("--states-from"), std::string::npos) << said_.err;
+  std::filesystem::create_directory(folder_ / "out-states");
+  std::ofstream(folder_ / "out-states/notes.txt") << "mine\n";
+  EXPECT_EQ(run("forward reference.vtkhdf out.vtkhdf --states 3"), 2);
+  EXPECT_NE(said_.err.find("notes.txt"), std::string::npos) << said_.err;
+  EXPECT_FALSE(exists("out.vtkhdf"));
+  ASSERT_EQ(run("forward reference.vtkhdf out.vtkhdf"), 0) << said_.err;
+  EXPECT_TRUE(exists("out-states/notes.txt"));
 }
 
 TEST_F(MechanicsTools, LawsPrintsATable) {

@@ -5,12 +5,14 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "fixtures/in_place.hpp"
 #include "fixtures/other_inverses.hpp"
 #include "fixtures/shapes.hpp"
 #include "mechanics/mechanics.hpp"
+#include "mechanics/turn.hpp"
 #include "mesh/element_order.hpp"
 
 namespace breast {
@@ -199,6 +201,80 @@ TEST(Forward, DoesNotDependOnTheNumberOfThreads) {
   ASSERT_TRUE(fixtures::forward_into(two, prone, paper_options()).converged());
   set_threads(before);
   EXPECT_LT(worst_distance(one.points, two.points), 1e-10);
+}
+
+TEST(Turn, PassesTheSideOfTheBreastBetweenOppositeDirections) {
+  const Vec3 supine = -prone;
+  for (const Side side : {Side::left, Side::right}) {
+    const Vec3 half = turned_gravity(prone, supine, side, 0.5);
+    EXPECT_LT((half - Vec3(lateral_sign(side) * gravity_mm_s2, 0, 0)).norm(), 1e-9);
+  }
+  EXPECT_EQ(turned_gravity(prone, supine, Side::left, 0), prone);
+  EXPECT_EQ(turned_gravity(prone, supine, Side::left, 1), supine);
+  const Vec3 upright(0, 0, -gravity_mm_s2),
+      third = turned_gravity(prone, upright, Side::left, 1 / 3.);
+  EXPECT_NEAR(third.dot(prone), std::cos(M_PI / 6) * prone.squaredNorm(), 1e-3);
+  EXPECT_NEAR(third.norm(), gravity_mm_s2, 1e-9);
+  EXPECT_EQ(turned_gravity(upright, -upright, Side::left, 0.5).normalized().x(), 1);
+  EXPECT_EQ(turned_gravity(Vec3::Zero(), prone, Side::left, 0.25), Vec3(0.25 * prone));
+  const Vec3 along(lateral_sign(Side::left) * gravity_mm_s2, 0, 0);
+  EXPECT_LT((turned_gravity(along, -along, Side::left, 0.5) - supine).norm(), 1e-9);
+}
+
+// A square block on its wall, which looks the same after a quarter turn: where gravity has made the
+// turn, so has the shape, and half-way it is its own mirror image.
+TEST(Turn, OfASquareBlockTurnsItsShape) {
+  fixtures::BlockSettings settings;
+  settings.elements = {3, 4, 4};
+  settings.size = Vec3(60, 60, 60);
+  const HexMesh mesh = fixtures::block(settings);
+  const Vec3 down(0, 0, -gravity_mm_s2), centre(0, 30, 30);
+  const std::vector<Equilibrium> states = solve_turn(mesh, prone, down, 5, one_law(fat));
+  ASSERT_EQ(states.size(), 5u);
+  const Mat3 quarter = Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX()).toRotationMatrix();
+  Mat3 mirror = Mat3::Identity();
+  std::swap(mirror(1, 1), mirror(1, 2));
+  std::swap(mirror(2, 2), mirror(2, 1));
+  EXPECT_LT((quarter * prone - down).norm(), 1e-9);
+  double moved = 0, off_turned = 0, off_mirrored = 0;
+  for (int n = 0; n < mesh.nodes(); ++n) {
+    const Vec3 at = mesh.imaged[n] - centre;
+    const auto partner = [&](const Mat3& q) {
+      return std::size_t(fixtures::node_at(mesh, q * at + centre));
+    };
+    const auto from_centre = [&](int state, std::size_t node) -> Vec3 {
+      return states[std::size_t(state)].points[node] - centre;
+    };
+    off_turned = std::max(
+        off_turned,
+        (from_centre(4, partner(quarter)) - quarter * from_centre(0, std::size_t(n))).norm());
+    off_mirrored = std::max(
+        off_mirrored,
+        (from_centre(2, partner(mirror)) - mirror * from_centre(2, std::size_t(n))).norm());
+    moved =
+        std::max(moved, (from_centre(4, std::size_t(n)) - from_centre(0, std::size_t(n))).norm());
+  }
+  EXPECT_GT(moved, 10);
+  EXPECT_LT(off_turned, 1e-7);
+  EXPECT_LT(off_mirrored, 1e-7);
+  for (const Equilibrium& state : states) {
+    EXPECT_TRUE(state.converged());
+    EXPECT_LT(state.residual, 1e-9);
+    EXPECT_GT(state.newton_iterations, 0);
+  }
+}
+
+// Each state is what forward finds under its gravity, whatever came before it.
+TEST(Turn, StatesAreThoseOfForward) {
+  const HexMesh mesh = fixtures::cap({.elements = 4});
+  const std::vector<Equilibrium> states = solve_turn(mesh, prone, -prone, 3, paper_options());
+  for (int k = 0; k < 3; ++k) {
+    const Equilibrium alone =
+        solve_forward(mesh, turned_gravity(prone, -prone, mesh.side, 0.5 * k), paper_options());
+    ASSERT_TRUE(alone.converged());
+    EXPECT_LT(worst_distance(alone.points, states[std::size_t(k)].points), 1e-7) << k;
+  }
+  EXPECT_THROW(solve_turn(mesh, prone, -prone, 1, paper_options()), Error);
 }
 
 }  // namespace

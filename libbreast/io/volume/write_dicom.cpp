@@ -74,19 +74,6 @@ std::string slice_bytes(const Volume<std::int16_t>& volume, int k, const std::st
   return set.file();
 }
 
-/// Puts a finished folder in the place of an older one of ours.
-void replace_folder(const fs::path& finished, const fs::path& target) {
-  check_dicom_folder(target);  // again: minutes may have passed
-  if (fs::exists(target)) {
-    const fs::path old = finished.string() + "-old";
-    fs::rename(target, old);
-    fs::rename(finished, target);
-    fs::remove_all(old);
-  } else {
-    fs::rename(finished, target);
-  }
-}
-
 }  // namespace
 
 void check_dicom_folder(const fs::path& folder) {
@@ -127,6 +114,7 @@ void write_dicom_series(const fs::path& folder, const Volume<std::int16_t>& volu
       std::snprintf(name, sizeof name, "slice_%04d.dcm", k + 1);
       write_bytes(part / name, slice_bytes(volume, k, description, scan));
     }
+    check_dicom_folder(target);  // again: minutes may have passed
     replace_folder(part, target);
   } catch (const fs::filesystem_error& exception) {
     fs::remove_all(part, ignored);
