@@ -16,7 +16,7 @@ if(failed OR folder STREQUAL "")
 endif()
 set(root "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}")
 file(INSTALL ${source}/breast DESTINATION ${CMAKE_INSTALL_PREFIX}/${folder} FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN "*.jinja"
-  PATTERN "*.css" PATTERN "*.js" PATTERN py.typed PATTERN __pycache__ EXCLUDE)
+  PATTERN "*.css" PATTERN "*.js" PATTERN "*.tsv" PATTERN py.typed PATTERN __pycache__ EXCLUDE)
 foreach(launcher ${launchers})
   string(REGEX REPLACE "=.*" "" name ${launcher})
   string(REGEX REPLACE ".*=" "" module ${launcher})

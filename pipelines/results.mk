@@ -2,16 +2,17 @@
 # Results for people: the page of both views, the run for 3D Slicer, expected values, and one self-contained report.
 
 # ---- pointing at either view draws curve, band and arc in the other -----------------------------------------
-page_scan := $(if $(filter yes,$(PAGE_SCAN)),$(MR) $(SERIES))
+page_options := $(or $(SERIES),0) $(filter no,$(PAGE_SCAN))
 # With friction or a wall on springs there are no derivatives yet: the page then shows curves without bands.
 derivatives := $(if $(findstring --friction,$(COMPRESS_OPTIONS))$(findstring spring:,$(COMPRESS_OPTIONS)),,-sensitivity)
 page_states := $(RUN)/cc$(derivatives).vtkhdf $(RUN)/mlo$(derivatives).vtkhdf
 lookup_settings := $(MATCH_LOOKUP) $(page_states)
 $(RUN)/lookup.h5: $(page_states) $(MATCH_LOOKUP) $(call changed,lookup)
 	$(call of_pressed,lookup) $(MATCH_LOOKUP) $(page_states) $@ --both-ways --pitch 1 $(common)
-page_settings := $(TABULATE) $(page_scan)
-$(RUN)/page.html: $(RUN)/lookup.h5 $(RUN)/cc.vti $(RUN)/mlo.vti $(if $(page_scan),$(MR_FILES)) $(TABULATE) $(call changed,page)
-	$(call staged,$(call record_file,page),$(page_settings),--of '$(filter $(made_of_pressed),$^)' --prints $@) $(tabulate) page $(RUN) $(page_scan)
+# The page is also made of what there is when the plates do not hold the breast: it says so.
+page_settings := $(TABULATE) $(call named,$(MR)) $(page_options)
+$(RUN)/page.html: $(RUN)/lookup.h5 $(addprefix $(RUN)/,cc.vti mlo.vti labels.vtkhdf mesh.vtkhdf) $(MR_FILES) $(TABULATE) $(call changed,page)
+	$(call prints,page,$@) $(tabulate) page $(RUN) $(MR) $(page_options)
 page: $(RUN)/page.html
 	$(gripped)
 

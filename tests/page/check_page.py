@@ -36,6 +36,11 @@ class Page:
     def open(self, width: int, height: int, touch: bool = False, points: str = "") -> None:
         self.browser.size(width, height, touch)
         self.browser.open(self.address + ("#" + points if points else ""))
+        self.to_pointing()
+
+    def to_pointing(self) -> None:
+        self.value("document.getElementById('tools').scrollIntoView()")
+        self.browser.frame()
 
     def index(self, view: str) -> int:
         return self.value(f"views.findIndex(view => view.image.view === '{view}')")
@@ -207,10 +212,59 @@ def check_layout(page: Page, width: int) -> None:
     check(page.value("(() => { const b = document.getElementById('research').getBoundingClientRect();"
                      " return b.top >= 0 && b.bottom <= innerHeight && b.height > 10; })()"),
           f"'research only' is seen after scrolling to the end at {width} px")
-    page.value("scrollTo(0, 0)")
+    page.to_pointing()
     unnamed = page.value("[...document.querySelectorAll('button, canvas, input')].filter(e => !(e.getAttribute('aria-label') ||"
                          " e.textContent.trim() || (e.labels && e.labels.length))).map(e => e.id)")
     check(unnamed == [], f"every control has a name: {unnamed}")
+
+
+def check_pictures(page: Page, width: int) -> None:
+    """The pictures that need no script: one scale, bars of 20 mm, inside the page."""
+    page.value("scrollTo(0, 0)")
+    bars = page.value("[...document.querySelectorAll('svg .bar')].map(bar => { const svg = bar.closest('svg'), box = svg.getBoundingClientRect();"
+                      " return [bar.getBoundingClientRect().width, box.width / svg.viewBox.baseVal.width, Number(bar.dataset.mm), box.right]; })")
+    check(len(bars) >= 2, f"both views have a bar at {width} px")
+    for pixels, scale, mm, right in bars:
+        near(pixels / scale, mm, 0.1, f"length of a bar at {width} px, mm")
+        near(scale, bars[0][1], 0.01 * scale, f"scale of a picture at {width} px, px/mm")
+        check(mm == 20 and right <= width, f"bars say 20 mm and pictures lie in the page at {width} px")
+    scale, live = page.value("[new Set(views.map(view => view.scale)).size, views[0].scale > 0]")
+    check(scale == 1 and live, f"both views to point at have one scale at {width} px")
+    page.to_pointing()
+
+
+def check_accessibility(page: Page) -> None:
+    """Of the rules of WCAG 2.1 those that a program can judge here: names, language, order of headings, and contrast of text."""
+    check(page.value("document.documentElement.lang === 'en' && document.title.length > 5"), "language and title")
+    check(page.value("[...document.querySelectorAll('img, svg[role=img]')].every(e => (e.alt || e.getAttribute('aria-label') || '').length > 20)"),
+          "every picture says what it shows")
+    check(page.value("[...document.querySelectorAll('svg:not([role=img])')].every(e => e.getAttribute('aria-hidden') === 'true')"),
+          "signs are left out for those who hear the page")
+    levels = page.value("[...document.querySelectorAll('h1, h2, h3')].map(e => Number(e.tagName[1]))")
+    check(levels[0] == 1 and levels.count(1) == 1 and all(b - a <= 1 for a, b in zip(levels, levels[1:])), f"headings in order: {levels}")
+    check(page.value("[...document.querySelectorAll('tr')].every(r => r.querySelector('th[scope=row]'))"), "rows have headers")
+    check(page.value("document.querySelectorAll('main').length === 1 && document.querySelectorAll('header').length === 1"), "landmarks")
+    pale = page.value("""(() => {
+      const rgb = text => text.match(/[\\d.]+/g).map(Number), clear = c => c.length > 3 && c[3] === 0;
+      const light = c => c.slice(0, 3).map(v => (v /= 255) <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
+          .reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0);
+      const ground = e => { for (; e; e = e.parentElement) { const c = rgb(getComputedStyle(e).backgroundColor); if (!clear(c)) return c; } return [255, 255, 255]; };
+      return [...document.querySelectorAll('h1, h2, p, li, td, th, small, caption, summary, figcaption, label, button:not(:disabled)')].filter(e => e.textContent.trim())
+          .filter(e => { const [a, b] = [light(rgb(getComputedStyle(e).color)), light(ground(e))].sort((x, y) => y - x); return (a + 0.05) / (b + 0.05) < 4.5; })
+          .map(e => e.tagName + ' ' + e.textContent.trim().slice(0, 30));
+    })()""")
+    check(pale == [], f"text stands out from its ground by 4.5 to 1: {pale}")
+
+
+def check_without_scripts(page: Page) -> None:
+    """The sentences, pictures and numbers are there without any script."""
+    page.browser.call("Emulation.setScriptExecutionDisabled", value=True)
+    page.browser.go("about:blank")
+    page.browser.go(page.address)
+    seen = page.browser.call("DOMSnapshot.captureSnapshot", computedStyles=[])["strings"]
+    for said in ("Where to look", "Clock position", "In numbers", "This part needs scripts. Everything above does not."):
+        check(any(said in text for text in seen), f"without scripts the page says '{said}'")
+    page.browser.call("Emulation.setScriptExecutionDisabled", value=False)
 
 
 def check_touch(page: Page, truth: list[list[str]]) -> None:
@@ -243,6 +297,8 @@ def run(folder: pathlib.Path, browser: Browser, pictures: pathlib.Path | None) -
     page = Page(browser, folder / "page.html")
     page.open(1400, 900)
     check_layout(page, 1400)
+    check_pictures(page, 1400)
+    check_accessibility(page)
     check_marks(page)
     check_against_matcher(page, truth)
     check_slice(page)
@@ -258,6 +314,7 @@ def run(folder: pathlib.Path, browser: Browser, pictures: pathlib.Path | None) -
           f"{(folder / 'page.html').stat().st_size / 1e6:.1f} MB")
     page.open(420, 900, touch=True)
     check_layout(page, 420)
+    check_pictures(page, 420)
     check_touch(page, truth)
     if pictures:
         browser.picture(str(pictures / "page-420.png"), whole=True)
@@ -266,6 +323,7 @@ def run(folder: pathlib.Path, browser: Browser, pictures: pathlib.Path | None) -
     without.open(1400, 900, points=f"{view}:{u},{v}")
     check(without.pins() == 1 and without.value("pins[0].k") == without.index(view), "a link keeps the point it names")
     check(without.value("document.getElementById('slice').getBoundingClientRect().width") == 0, "no scan, no slice")
+    check_without_scripts(page)
     check(browser.errors == [], f"the page raises no error: {browser.errors}")
     strange = [r for r in browser.requests if not r.startswith(("file:", "about:", "data:"))]
     check(strange == [], f"the page asks the network for nothing: {strange}")

@@ -6,16 +6,21 @@ import json
 import re
 import shutil
 import unittest
+from pathlib import Path
 
 import numpy as np
 
 import breast
 import small_run
+from breast.elements import FACE_CORNERS
 from breast.errors import BreastError
+from breast.state import Landmark
 
 try:
     import jinja2  # noqa: F401
-    from breast.page import packed
+    from breast.page import facts, packed
+    from breast.page.lines import line_at
+    from breast.page.remarks import banners_of, remarks_of
     from breast.page.views_page import read_views, views_page
     without_jinja = ""
 except ImportError:
@@ -30,16 +35,28 @@ def unpacked(text: str, kind: str) -> np.ndarray:
     return np.frombuffer(base64.b64decode(text), kind)
 
 
+def words_of(page: str) -> str:
+    """What a reader sees, without the scripts' part."""
+    seen = re.sub(r"<(script|style)\b.*?</\1>|<[^>]*>", " ", page.partition('<section id="pointing"')[0], flags=re.S)
+    return re.sub(r"\s+", " ", seen.replace("&#39;", "'"))
+
+
+def number_of(page: str, key: str) -> list[float]:
+    """The numbers of the row of the page's tables with that key."""
+    row = re.search(rf'data-key="{key}">(.*?)</td>', page)[1]
+    return [float(n) for n in re.findall(r"\d+\.?\d*", row)]
+
+
 @unittest.skipIf(without_jinja, without_jinja)
 class PackedData(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.run_folder = small_run.folder()
-        cls.views = read_views(cls.run_folder, None)
-        cls.page = views_page(cls.views)
+        cls.views = read_views(cls.run_folder, cls.run_folder / "small-scan.nrrd")
+        cls.page = views_page(cls.run_folder, cls.views)
 
     def test_holds_the_curves_of_both_directions(self):
-        low, high = packed.box_of(self.views.states[0])
+        low, high = packed.box_of(self.views.body)
         for lookup, held in zip(self.views.lookups, data_of(self.page)["lookups"]):
             tissue = lookup.status != 0
             self.assertGreater(np.count_nonzero(tissue), 50)
@@ -50,7 +67,7 @@ class PackedData(unittest.TestCase):
                 np.testing.assert_allclose(0.01 * unpacked(held[name], kind), values[tissue].ravel(), atol=0.0051)
 
     def test_holds_the_images_as_they_are_hung(self):
-        for image, state, held in zip(self.views.images, self.views.states, data_of(self.page)["images"]):
+        for (image, state), held in zip(self.views.pairs, data_of(self.page)["images"]):
             grey = unpacked(held["grey"], "<u2").reshape(held["height"], held["width"])
             self.assertEqual(grey.shape, image.images["path"].shape)
             self.assertGreater(grey.max(), 60000)
@@ -59,19 +76,23 @@ class PackedData(unittest.TestCase):
 
     def test_shows_of_the_scan_only_the_breast(self):
         scan = breast.load(self.run_folder / "small-scan.nrrd")
-        held = packed.packed_scan(scan, self.views.states[0])
-        low, high = packed.box_of(self.views.states[0])
-        np.testing.assert_allclose(held["origin"], low - 15)
+        held = packed.packed_scan(scan, self.views.body)
+        low, high = packed.box_of(self.views.body)
+        np.testing.assert_allclose(held["origin"][:2], low[:2] - 15)
+        np.testing.assert_allclose(scan.grid.to_index(self.places(held))[:, 2] % 1, 0, atol=1e-6, err_msg="its planes are the scan's slices")
+        row, place = np.array(held["slices"]["row"]), np.array([80.0, -20, 12])
+        self.assertAlmostEqual(row[:3] @ place + row[3], scan.grid.to_index(place)[2])
+        self.assertEqual((held["slices"]["plane"], held["slices"]["count"]), ("axial", scan.grid.size[2]))
         self.assertTrue(((np.array(held["size"]) - 1) * held["spacing"] <= high - low + 30).all())
         grey = unpacked(held["grey"], "u1").reshape(held["size"][::-1])
-        place = np.array(held["origin"]) + np.array([40, 30, 20]) * held["spacing"]
+        place = np.array(held["origin"]) + np.array([40, 30, 6]) * held["spacing"]
         near = scan.sample(place[None])[0]
         darker, brighter = (np.count_nonzero(scan.sample(self.places(held)[::50]) < near + d) for d in (-1, 1))
-        self.assertLessEqual(darker, np.count_nonzero(grey.ravel()[::50] <= grey[20, 30, 40]))
-        self.assertLessEqual(np.count_nonzero(grey.ravel()[::50] < grey[20, 30, 40]), brighter)
+        self.assertLessEqual(darker, np.count_nonzero(grey.ravel()[::50] <= grey[6, 30, 40]))
+        self.assertLessEqual(np.count_nonzero(grey.ravel()[::50] < grey[6, 30, 40]), brighter)
         elsewhere = dataclasses.replace(scan, grid=dataclasses.replace(scan.grid, origin=scan.grid.origin + 1000))
         with self.assertRaisesRegex(BreastError, "covers 0 % of the bounding box"):
-            packed.packed_scan(elsewhere, self.views.states[0])
+            packed.packed_scan(elsewhere, self.views.body)
 
     @staticmethod
     def places(held: dict) -> np.ndarray:
@@ -87,13 +108,13 @@ class PackedData(unittest.TestCase):
     def test_lets_no_name_become_code(self):
         for hostile in ('</script><script>alert("1")</script>', "<!--<script>", "]]>", "\u2028", "{{ 7 * 7 }}", "'&\\"):
             lookup = dataclasses.replace(self.views.lookups[0], band_without=[hostile])
-            made = views_page(dataclasses.replace(self.views, lookups=(lookup, self.views.lookups[1])))
+            made = views_page(self.run_folder, dataclasses.replace(self.views, lookups=(lookup, self.views.lookups[1])))
             self.assertFalse("<" in hostile and hostile in made, hostile)
             self.assertEqual(made.count("</script>"), self.page.count("</script>"))
             self.assertEqual(data_of(made)["band_without"], hostile)
 
     def test_refuses_files_of_other_views(self):
-        for name, other, said in (("cc.vti", "mlo.vti", "is of CC of the left breast, but"), ("cc.vtkhdf", "mesh.vtkhdf", "is no compression"),
+        for name, other, said in (("cc.vti", "mlo.vti", "is of MLO of the left breast, but cc.vtkhdf of CC"), ("cc.vtkhdf", "mesh.vtkhdf", "is no compression"),
                                   ("lookup.h5", "lookup.h5", "was made of other compressions")):
             run = small_run.scratch("page")
             for file in ("cc.vtkhdf", "mlo.vtkhdf", "cc.vti", "mlo.vti", "lookup.h5"):
@@ -103,6 +124,149 @@ class PackedData(unittest.TestCase):
                 small_run.tool(f"compress {self.run_folder}/reference.vtkhdf {run}/cc.vtkhdf --view CC --reduction 20 --at-least 15", run)
             with self.assertRaisesRegex(BreastError, said):
                 read_views(run, None)
+
+
+@unittest.skipIf(without_jinja, without_jinja)
+class WhatIsSaid(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.run_folder = small_run.folder()
+        cls.views = read_views(cls.run_folder, cls.run_folder / "small-scan.nrrd")
+        cls.page = views_page(cls.run_folder, cls.views)
+        cls.report = {name: json.loads((cls.run_folder / f"{name}.json").read_text()) for name in ("mesh", "labels", "cc", "mlo")}
+
+    def test_numbers_of_the_tumour_are_those_of_the_files(self):
+        marks = self.report["mesh"]["landmarks"]
+        tumour, nipple = (np.array(marks[name]["imaged"]) for name in ("artificial_tumour", "nipple"))
+        self.assertEqual(number_of(self.page, "nipple_mm"), [round(float(np.linalg.norm(tumour - nipple)))])
+        faces = self.views.body.faces["skin"]
+        corners = self.views.body.imaged[self.views.body.hexahedra[faces[:, 0, None], FACE_CORNERS[faces[:, 1]]]].reshape(-1, 3)
+        self.assertLessEqual(number_of(self.page, "skin_mm")[0], np.linalg.norm(corners - tumour, axis=1).min() + 0.5)
+        self.assertEqual(number_of(self.page, "position"), [round(abs(x)) for x in tumour])
+        scan = breast.load(self.run_folder / "small-scan.nrrd").grid
+        self.assertEqual(number_of(self.page, "slice")[:2], [1 + round((tumour[2] - scan.origin[2]) / scan.spacing[2]), scan.size[2]])
+        clock = facts.clock_position(tumour - nipple)
+        self.assertIn(clock, words_of(self.page))
+        for image, state in self.views.pairs:
+            (u, v), (u_nipple, v_nipple) = (image.project(state.landmark_position(name)[None])[0] for name in ("tumour", "nipple"))
+            self.assertEqual(number_of(self.page, f"in_{image.view}"), [round(u_nipple - u), round(abs(v - v_nipple))])
+
+    def test_numbers_of_the_breast_are_those_of_the_reports(self):
+        self.assertEqual(number_of(self.page, "volume_ml"), [round(self.report["labels"]["breast_ml"])])
+        self.assertEqual(number_of(self.page, "density")[0], round(self.report["labels"]["density_percent"], 1))
+        for view in ("CC", "MLO"):
+            report = self.report[view.lower()]
+            self.assertEqual(number_of(self.page, f"plates_{view}")[:2], [round(report["thickness_mm"]), round(report["force_N"])])
+
+    def moved_tumour(self):
+        """The views with the tumour in the middle of an element that both images show, and its place in CC."""
+        (image, cc), (_, mlo) = self.views.pairs
+        element = next(e for e, point in enumerate(cc.centres()) if cc.element_numbers[e] == mlo.element_numbers[e] and
+                       (line := line_at(self.views.lookups[0], image.project(point[None])[0])) and line.status == 1 and line.length_mm > 30)
+
+        def moved(state):
+            landmark = Landmark("tumour", state.centres("imaged")[element], element, np.zeros(3), 0)
+            return dataclasses.replace(state, landmarks={"nipple": state.landmarks["nipple"], "tumour": landmark})
+        pairs = [(image, moved(state)) for image, state in self.views.pairs]
+        return (dataclasses.replace(self.views, pairs=pairs, body=pairs[0][1], origin="given"),
+                image.project(pairs[0][1].landmark_position("tumour")[None])[0])
+
+    def test_the_line_is_that_of_the_matcher(self):
+        views, (u, v) = self.moved_tumour()
+        run = small_run.scratch("line")
+        small_run.tool(f"cc2mlo {self.run_folder}/cc.vtkhdf {self.run_folder}/mlo.vtkhdf c.vtp --point {u},{v} --report c.json", run)
+        length = json.loads((run / "c.json").read_text())["curve_mm"]
+        words = words_of(views_page(self.run_folder, views))
+        said = float(re.search(r"The tumour, seen in CC alone, lies in MLO somewhere on a line of (\d+) mm", words)[1])
+        self.assertLess(abs(said - length), 3, "between points 5 mm apart")
+        self.assertIn("how far to either side of it is not known for this run", words, "no derivatives, no band")
+
+    def test_a_tumour_outside_the_images_is_said_and_not_drawn(self):
+        self.assertIn("does not lie in the CC image but behind its back edge", words_of(self.page))
+        views = self.page.partition('id="picture-CC"')[2].partition('id="picture-MR"')[0]
+        self.assertFalse('<circle class="artificial" cx' in views)
+
+    def test_a_band_is_said_as_its_widest_half(self):
+        lookups = tuple(dataclasses.replace(lookup, deviation_mm=np.full_like(lookup.deviation_mm, 9.1)) for lookup in self.views.lookups)
+        page = views_page(self.run_folder, dataclasses.replace(self.moved_tumour()[0], lookups=lookups))
+        self.assertIn("up to 15 mm to either side of it (90 %)", words_of(page))
+        self.assertEqual(page.count('<path class="band" d="M'), 3, "in both pictures and in the legend")
+
+    def test_words_for_places(self):
+        for offset, clock in (((0, 0, 20), "12 o'clock"), ((20, 5, 0), "3 o'clock"), ((-20, 5, 0), "9 o'clock"), ((0, 9, -20), "6 o'clock"),
+                              ((11, 43, 14), "1 o'clock"), ((3, 40, 4), "behind the nipple"), ((-5, 0, 30), "12 o'clock")):
+            self.assertEqual(facts.clock_position(np.array(offset, float)), clock)
+        self.assertEqual(facts.quadrant(np.array([20.0, 5, 5]), "left"), "upper outer quadrant")
+        self.assertEqual(facts.quadrant(np.array([20.0, 5, -5]), "right"), "lower inner quadrant")
+        self.assertEqual([facts.depth_third(at, 90) for at in (5, 45, 80, 95)], ["posterior", "middle", "anterior", "anterior"])
+        self.assertEqual(facts.patient_position(np.array([-93.6, 31.4, -13.2])), "R 94, P 31, I 13 mm")
+        self.assertEqual([facts.density_class(p)[0] for p in (2, 4.5, 7.6, 15.4, 15.5, 60)], ["a", "b", "c", "c", "d", "d"])
+        sagittal = breast.load(self.run_folder / "small-scan.nrrd").grid
+        sagittal = dataclasses.replace(sagittal, direction=np.array([[0.0, 0, -1], [1, 0, 0], [0, -1, 0]]), origin=np.array([100.0, 0, 0]))
+        number, count, plane = facts.slice_of(sagittal, np.array([100 - 3 * sagittal.spacing[2], 0.0, 0]))
+        self.assertEqual((number, count, plane, facts.first_slice(sagittal)), (4, sagittal.size[2], "sagittal", "leftmost"))
+
+    def test_an_artificial_tumour_is_no_finding(self):
+        self.assertIn("It is not a finding of this patient", words_of(self.page))
+        self.assertTrue("an artificial tumour" in self.page and 'class="artificial"' in self.page, "dashed, in the legend")
+        for given in ("first row of tumour.tsv", "94,-31,13", "centroid of the label"):
+            run = small_run.scratch("given")
+            (run / "mesh.json").write_text(json.dumps({"tumour": given}))
+            for file in ("cc.vtkhdf", "mlo.vtkhdf", "cc.vti", "mlo.vti", "lookup.h5"):
+                shutil.copy(self.run_folder / file, run)
+            views = read_views(run, None)
+            self.assertEqual(views.origin, "given")
+            said = words_of(views_page(run, views))
+            self.assertIn("The tumour does not lie in the CC image", said)
+            self.assertNotIn("artificial", said)
+
+    def test_without_a_tumour_it_is_of_the_breast(self):
+        def without(state):
+            return dataclasses.replace(state, landmarks={"nipple": state.landmarks["nipple"]})
+        views = dataclasses.replace(self.views, origin="none", pairs=[(image, without(state)) for image, state in self.views.pairs],
+                                    body=without(self.views.body))
+        page = views_page(self.run_folder, views)
+        self.assertIn("No tumour was given for this breast. Point at any place", words_of(page))
+        self.assertNotIn('data-key="clock"', page)
+        self.assertIn('data-key="density"', page)
+
+    def test_a_view_that_is_not_gripped_has_a_banner_and_no_picture(self):
+        run = small_run.scratch("loose")
+        for file in ("cc.vtkhdf", "cc.vti", "mlo.vtkhdf", "mesh.vtkhdf", "labels.json", "mesh.json", "cc.json"):
+            shutil.copy(self.run_folder / file, run)
+        for said, fields in (("the simulated plates do not hold the breast", {"status": "not_gripped"}),
+                             ("stopped early, when the breast was 12 % thinner, which is not enough", {"status": "stopped_early", "reduction_percent": 12}),
+                             ("the simulated compression failed", {"status": "not_converged"})):
+            (run / "mlo.json").write_text(json.dumps({"view": "MLO", "accepted": False, "explanation": "it <slips>", **fields}))
+            views = read_views(run, None)
+            page = views_page(run, views)
+            self.assertIn(said, words_of(page))
+            self.assertIn("There is no MLO image", words_of(page))
+            self.assertIn("it &lt;slips&gt;", page)
+            self.assertTrue('id="picture-CC"' in page and 'id="picture-MLO"' not in page and 'id="data"' not in page)
+        shutil.copy(run / "mlo.json", run / "cc.json")
+        self.assertEqual(read_views(run, None).pairs, [])
+        self.assertEqual(len(banners_of(run)), 2)
+        self.assertNotIn("<figure", views_page(run, read_views(run, None)))
+
+    def test_warnings_are_said_in_a_readers_words_worst_first(self):
+        run = small_run.scratch("warned")
+        for stage, warnings in (("labels", ["quality of wall 0.4 is low", "quality of tissue 0.3 is low"]),
+                                ("cc", ["paddle force 12 N is below the clinical range of 50-180 N", "a <b>new</b> warning"]),
+                                ("mesh", ["the tumour is artificial: it was not found in the scan"])):
+            (run / f"{stage}.json").write_text(json.dumps({"warnings": warnings}))
+        remarks = remarks_of(run)
+        self.assertEqual([remark.weight for remark in remarks], [1, 2, 2, 2])
+        self.assertIn("not a finding", remarks[0].words)
+        self.assertEqual(remarks[1].said, ["labels: quality of wall 0.4 is low", "labels: quality of tissue 0.3 is low"])
+        self.assertEqual(remarks[-1].words, "a <b>new</b> warning", "a warning without a row is shown as it is")
+
+    def test_every_advice_has_words_and_they_are_plain(self):
+        """A kind of warning that has advice in the report has words on the page."""
+        rows = [line.split("\t")[0] for line in (small_run.source / "pipelines/advice.tsv").read_text().splitlines() if line[:1] not in ("#", "")]
+        words = (Path(facts.__file__).parent / "words.tsv").read_text()
+        missing = [row for row in rows if f"\n{row}\t" not in words and row != "is (below|above) the range of"]
+        self.assertEqual(missing, [])
 
 
 if __name__ == "__main__":

@@ -18,6 +18,7 @@ from ..lookup import Lookup
 from ..mammogram import Mammogram
 from ..state import State
 from ..volume import Volume
+from .facts import slice_of
 
 LARGEST_PAGE = 25_000_000  # bytes
 _UNIT = 0.01  # mm of packed lengths
@@ -25,6 +26,7 @@ _MOST_NODES = 14000
 _FINEST_PIXEL = 0.25  # mm
 _MARGIN = 15  # mm of the scan about the breast
 _MOST_VOXELS = 3_000_000
+_AXIAL = 0.9999  # the cosine between the scan's third axis and the patient's
 
 
 def landmarks_of(state: State) -> list[str]:
@@ -88,11 +90,13 @@ def packed_body(state: State) -> dict[str, Any]:
 def packed_scan(scan: Volume, state: State) -> dict[str, Any]:
     """The scan in the box of the imaged breast and 15 mm about it, so that it holds only the part of the patient that the page shows.
 
-    8 bits between the 1st and the 99.5th percentile, axes along the patient's, voxels of at least 1 x 1 x 2 mm, at most 3 million.
+    8 bits between the 1st and the 99.5th percentile, axes along the patient's, voxels of at least 1 x 1 mm, at most 3 million. Planes are
+    the slices of an axial scan, or else 2 mm apart; `slices` says how the scan itself counts: its slice at LPS mm (x, y, z) is
+    row · (x, y, z, 1), from 0.
     Raises BreastError where the scan does not cover the breast.
     """
     low, high = box_of(state)
-    grid = _grid_about(low - _MARGIN, high + _MARGIN)
+    grid = _grid_about(low - _MARGIN, high + _MARGIN, scan.grid)
     k, j, i = np.indices(grid.size[::-1]).reshape(3, -1)
     values = scan.sample(grid.to_patient(np.stack([i, j, k], -1)), np.nan)
     inside = np.sort(values[np.isfinite(values)])
@@ -101,17 +105,23 @@ def packed_scan(scan: Volume, state: State) -> dict[str, Any]:
                           "give the scan that was segmented")
     dark, bright = (float(inside[int(rank * (len(inside) - 1))]) for rank in (0.01, 0.995))
     grey = np.nan_to_num(np.rint(255 * np.clip((values - dark) / max(bright - dark, 1e-30), 0, 1)))
-    return {"size": list(grid.size), "spacing": grid.spacing.tolist(), "origin": grid.origin.tolist(), "grey": _array(grey.astype("u1"))}
+    _, count, plane = slice_of(scan.grid, 0.5 * (low + high))
+    offset, *steps = scan.grid.to_index(np.vstack([np.zeros(3), np.eye(3)]))[:, 2]
+    return {"size": list(grid.size), "spacing": grid.spacing.tolist(), "origin": grid.origin.tolist(), "grey": _array(grey.astype("u1")),
+            "slices": {"plane": plane, "count": count, "row": [*(float(step - offset) for step in steps), float(offset)]}}
 
 
-def _grid_about(low: np.ndarray, high: np.ndarray) -> Grid:
-    """The grid of a box along the patient's axes, coarser if the box is large."""
-    coarser = 1.0
+def _grid_about(low: np.ndarray, high: np.ndarray, scan: Grid) -> Grid:
+    """The grid of a box along the patient's axes, coarser if the box is large; its planes are slices of a scan that is axial."""
+    axial, coarser = abs(scan.direction[2, 2]) > _AXIAL, 1.0
     while True:
-        spacing = coarser * np.array([1.0, 1.0, 2.0])
-        size = 1 + ((high - low) / spacing).astype(int)
+        spacing, first = coarser * np.array([1.0, 1.0, 2.0]), low.copy()
+        if axial:
+            spacing[2] = scan.spacing[2] * np.ceil(coarser / scan.spacing[2])
+            first[2] = scan.origin[2] + scan.spacing[2] * np.ceil((low[2] - scan.origin[2]) / scan.spacing[2])
+        size = 1 + ((high - first) / spacing).astype(int)
         if size.prod() <= _MOST_VOXELS:
-            return Grid((int(size[0]), int(size[1]), int(size[2])), spacing, low, np.eye(3))
+            return Grid((int(size[0]), int(size[1]), int(size[2])), spacing, first, np.eye(3))
         coarser *= 1.1
 
 

@@ -7,91 +7,208 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..cases.compression import VIEWS, why_not_made
 from ..command.beside import ended, readable_scan, started
 from ..errors import BreastError
 from ..study.html import page
 from ..study.kinds import Request, kind
+from ..study.stage_report import StageReport
+from ..study.summary import tumour_origin
 
 if TYPE_CHECKING:
+    from ..labels import Labels
     from ..lookup import Lookup
     from ..mammogram import Mammogram
     from ..state import State
     from ..volume import Volume
+    from .lines import MatchedLine
 
 _TEMPLATES = Path(__file__).with_name("templates")
 _SCRIPTS = ("data", "lookup", "arc", "window", "view", "pins", "colours", "overlay", "marks", "slice", "body", "list", "readout",
             "gestures", "keys", "controls", "main")
+_TUMOUR_WORDS = {"none": "", "given": "the tumour of the MR, where the model has it",
+                 "artificial": "an artificial tumour, put there by the program: not a finding"}
+
+_NOT_COUNTED = {"tumour": "how stiff the tumour is", "sternum": "how firmly the breast is held at the sternum",
+                "chest_wall": "where exactly the chest wall lies", "angle": "the true angle of the view", "detector": "the height of the plates"}
 
 
 @dataclass(frozen=True)
 class Views:
-    """Both views of a run: compressed shapes, images, and the lookups of each image in the other. scan: to be shown, or None."""
+    """What the page is made of.
 
-    states: tuple[State, State]
-    images: tuple[Mammogram, Mammogram]
-    lookups: tuple[Lookup, Lookup]
+    Attributes:
+        pairs: the views whose plates hold the breast, each with its image.
+        lookups: of each image in the other; None unless there are both views.
+        body: a shape of the mesh, for what is said of the imaged breast.
+        labels: None where the run has none.
+        scan: None if it is not given.
+        shows_scan: whether voxels of the scan may be shown.
+        origin: of the tumour: none, given or artificial.
+    """
+
+    pairs: list[tuple[Mammogram, State]]
+    lookups: tuple[Lookup, Lookup] | None
+    body: State
+    labels: Labels | None
     scan: Volume | None
+    shows_scan: bool
+    origin: str
 
 
-def read_views(run: Path, scan: Path | None) -> Views:
+def read_views(run: Path, scan: Path | None, shows_scan: bool = True) -> Views:
     """Raises BreastError where a file is missing or damaged, or where the lookup is not of these compressions."""
+    from ..labels import read_labels
     from ..loading import load_scan
-    from ..lookup import read_lookup
     from ..mammogram import read_mammogram
     from ..state_file import read_state
 
-    cc, mlo = (read_state(run / f"{view}.vtkhdf") for view in ("cc", "mlo"))
-    images = (read_mammogram(run / "cc.vti"), read_mammogram(run / "mlo.vti"))
-    there, back = read_lookup(run / "lookup.h5"), read_lookup(run / "lookup.h5", back=True)
-    for state, image, view, side in zip((cc, mlo), images, (there.from_view, there.to_view), (there.side, back.side)):
+    held = [view for view in VIEWS if not why_not_made([run / f"{view}.vtkhdf"])]
+    pairs = [(read_mammogram(run / f"{view}.vti"), read_state(run / f"{view}.vtkhdf")) for view in held]
+    for image, state in pairs:
         if state.contact is None:
             raise BreastError("is no compression", state.file)
-        if (state.contact.view, state.side, image.view, image.side) != (view, side, view, side):
-            raise BreastError(f"is of {view} of the {side} breast, but {state.file.name} of {state.contact.view} of the {state.side} and "
-                              f"{image.file.name} of {image.view} of the {image.side}", there.file)
-    if not {*cc.history, *mlo.history} <= {*there.history}:
-        raise BreastError("was made of other compressions than cc.vtkhdf and mlo.vtkhdf", there.file, "run match-lookup again")
-    return Views((cc, mlo), images, (there, back), load_scan(scan) if scan else None)
+        if (image.view, image.side) != (state.contact.view, state.side):
+            raise BreastError(f"is of {image.view} of the {image.side} breast, but {state.file.name} of {state.contact.view} of the "
+                              f"{state.side}", image.file)
+    lookups = _read_lookups(run / "lookup.h5", [state for _, state in pairs]) if len(pairs) == 2 else None
+    body = pairs[0][1] if pairs else read_state(run / "mesh.vtkhdf")
+    labels = run / "labels.vtkhdf"
+    origin = tumour_origin(StageReport.read(run / "mesh.json"))
+    if origin == "none" and any("tumour" in name for name in body.landmarks):  # a mesh without a report
+        origin = "artificial" if "artificial_tumour" in body.landmarks else "given"
+    return Views(pairs, lookups, body, read_labels(labels) if labels.exists() else None, load_scan(scan) if scan else None, shows_scan, origin)
 
 
-def views_page(views: Views) -> str:
+def _read_lookups(file: Path, states: list[State]) -> tuple[Lookup, Lookup]:
+    from ..lookup import read_lookup
+
+    there, back = read_lookup(file), read_lookup(file, back=True)
+    for state, views, side in zip(states, ((there.from_view, back.to_view), (there.to_view, back.from_view)), (there.side, back.side)):
+        if {*views} != {state.contact.view if state.contact else ""} or side != state.side:
+            raise BreastError(f"is of {views[0]} of the {side} breast, but {state.file.name} of another view or side", file)
+    if not {*states[0].history, *states[1].history} <= {*there.history}:
+        raise BreastError("was made of other compressions than cc.vtkhdf and mlo.vtkhdf", file, "run match-lookup again")
+    return there, back
+
+
+def views_page(run: Path, views: Views) -> str:
     """The page. Raises BreastError for one above LARGEST_PAGE."""
     from markupsafe import Markup
 
+    from .drawing import BAR_MM
+    from .facts import facts_of_breast, facts_of_tumour
     from .packed import LARGEST_PAGE
+    from .remarks import banners_of, remarks_of
 
+    lines = _lines_of_tumour(views)
+    pictures = _pictures(views, lines)
+    tumour = facts_of_tumour(views.body, views.pairs, views.labels, views.scan.grid if views.scan else None) if views.origin != "none" else []
+    breast = facts_of_breast(StageReport.read(run / "labels.json"), [StageReport.read(run / f"{view}.json") for view in VIEWS])
     scripts = [Markup((_TEMPLATES / f"scripts/{name}.js").read_text(encoding="utf-8")) for name in _SCRIPTS]
-    made = page("views", _TEMPLATES, data=_data(views), scripts=scripts)
+    widths = [picture.size[0] for picture in pictures]
+    made = page("views", _TEMPLATES, title=_title(views), banners=banners_of(run), remarks=remarks_of(run),
+                answer_title=_answer_title(views), answer=_answer(views, lines), pictures=pictures, bar_mm=BAR_MM,
+                row_mm=f"{sum(widths):.1f}", pair_mm=f"{max(sum(widths[:2]), *widths, 1) if widths else 1:.1f}",
+                tumour_words=_TUMOUR_WORDS[views.origin], tumour_kind="artificial" if views.origin == "artificial" else "tumour",
+                with_views=bool(views.pairs), with_lines=any(picture.line for picture in pictures), with_band=any(picture.band for picture in pictures),
+                tables=[("The tumour" if views.origin == "given" else "The artificial tumour", tumour), ("The breast", breast)],
+                data=_data(views), scripts=scripts)
     if len(made) > LARGEST_PAGE:
         raise BreastError(f"the page would have {len(made) // 1000000} MB, at most {LARGEST_PAGE // 1000000} allowed; use a larger "
                           "--pitch of match-lookup, or show no scan")
     return made
 
 
-def _data(views: Views) -> dict[str, Any]:
+def _title(views: Views) -> str:
+    of = {"none": "matching CC and MLO", "given": "the tumour in CC and MLO", "artificial": "an artificial tumour in CC and MLO"}
+    return f"{views.body.side.capitalize()} breast: {of[views.origin]}"
+
+
+def _lines_of_tumour(views: Views) -> list[MatchedLine | None]:
+    """For each view, the line on which the tumour lies there, as seen in the other view alone."""
+    from .lines import line_at
+
+    if views.origin == "none" or views.lookups is None:
+        return [None for _ in views.pairs]
+    found = [line_at(lookup, image.project(state.landmark_position("tumour")[None])[0])
+             for lookup, (image, state) in zip(views.lookups, views.pairs)]
+    return found[::-1]
+
+
+def _pictures(views: Views, lines: list[MatchedLine | None]) -> list[Any]:
+    from .drawing import pair_size, slice_picture, view_picture
+
+    size = pair_size(tuple(image for image, _ in views.pairs)) if views.pairs else (0.0, 0.0)
+    pictures = [view_picture(image, state, size, line) for (image, state), line in zip(views.pairs, lines)]
+    if views.scan is not None and views.shows_scan:
+        pictures.append(slice_picture(views.scan, views.body))
+    return pictures
+
+
+def _answer_title(views: Views) -> str:
+    return "Where to look" if views.origin != "none" else "What this page shows"
+
+
+def _answer(views: Views, lines: list[MatchedLine | None]) -> list[str]:
+    """The result in sentences."""
+    if len(views.pairs) < 2:
+        return ["Without both views no place of one view can be found in the other."]
+    names = [image.view for image, _ in views.pairs]
+    if views.origin == "none":
+        return [f"No tumour was given for this breast. Point at any place of {names[0]} or {names[1]} below to see on which line of the other "
+                "view it lies."]
+    the = "The tumour" if views.origin == "given" else "The artificial tumour"
+    said = []
+    for (here, there), line in zip((names, names[::-1]), lines[::-1]):
+        if line is None:
+            said.append(f"{the} does not lie in the {here} image but behind its back edge, or beside the breast: nothing is said about {there} "
+                        f"from {here} alone.")
+            continue
+        sides = (f", up to {line.to_either_side_mm:.0f} mm to either side of it (90 %)" if line.to_either_side_mm > 0 else
+                 "; how far to either side of it is not known for this run")
+        said.append(f"{the}, seen in {here} alone, lies in {there} somewhere on a line of {line.length_mm:.0f} mm{sides}. {line.remark()}".strip())
+    without = _not_counted(views)
+    if without and any(line and line.to_either_side_mm > 0 for line in lines):
+        said.append(f"Not counted in the 90 %: {without}.")
+    return [*said, "A ring is where the model has it: the MR shows its depth, which one mammogram does not."]
+
+
+def _not_counted(views: Views) -> str:
+    names = views.lookups[0].band_without if views.lookups else []
+    return ", ".join(_NOT_COUNTED.get(name, name.replace("_", " ")) for name in names)
+
+
+def _data(views: Views) -> dict[str, Any] | None:
+    """What the scripts read; None unless there are both views."""
     from .packed import box_of, packed_body, packed_image, packed_lookup, packed_scan
 
-    body = views.states[0]
-    middle = 0.5 * sum(box_of(body))
-    return {"side": body.side, "band_without": ", ".join(views.lookups[0].band_without),
-            "images": [packed_image(image, state) for image, state in zip(views.images, views.states)],
+    if views.lookups is None:
+        return None
+    middle = 0.5 * sum(box_of(views.body))
+    return {"side": views.body.side, "band_without": _not_counted(views),
+            "images": [packed_image(image, state) for image, state in views.pairs],
             "lookups": [packed_lookup(lookup, middle) for lookup in views.lookups],
-            "body": packed_body(body), "scan": packed_scan(views.scan, body) if views.scan else None}
+            "body": packed_body(views.body),
+            "scan": packed_scan(views.scan, views.body) if views.scan is not None and views.shows_scan else None}
 
 
-@kind("page", "RUN [SCAN] [SERIES]",
-      "interactive page of a run's lookup.h5, cc and mlo (.vtkhdf, .vti): pointing at a view shows the curve in the other; with SCAN, also "
-      "its slices about the breast. The page holds no file names and no header data of the scan, but it shows images of the breast: give "
+@kind("page", "RUN [SCAN] [SERIES] [no]",
+      "the page of a run for those who read mammograms: where the tumour, or any place of one view, lies in the other, from its lookup.h5, "
+      "cc and mlo (.vtkhdf, .vti), and from reports, labels and mesh if they are there. SCAN adds the number of the MR slice and, without "
+      "'no', slices about the breast. The page holds no file names and no header data of the scan, but it shows images of the breast: give "
       "it only to those who may see the scan")
 def _page(request: Request) -> str:
-    run, scan, series = request.path(0), request.word(1), request.word(2, "0")
+    run, scan, series, shown = request.path(0), request.word(1), request.word(2, "0"), request.word(3, "yes")
+    if not series.isdecimal() or shown not in ("yes", "no"):
+        raise BreastError(f"page: '{series} {shown}' is not the number of a series and yes or no")
     pairs = [("cc.vtkhdf", "mlo.vtkhdf"), ("cc.vtkhdf", "cc.vti"), ("mlo.vtkhdf", "mlo.vti")]
-    named = {name: run / name for pair in pairs for name in pair} | ({"SCAN": Path(scan)} if scan else {})
+    named = {name: run / name for pair in pairs for name in pair if (run / name).exists()} | ({"SCAN": Path(scan)} if scan else {})
     # The files' pairs are checked, in C++, while they are read here.
     check = started("pairs", ["tabulate", "--series", series, *(f"--check={name}={file}" for name, file in named.items())])
     with tempfile.TemporaryDirectory(prefix="breast-page-") as folder:
         try:
-            views = read_views(run, readable_scan(Path(scan), int(series), Path(folder)) if scan else None)
+            views = read_views(run, readable_scan(Path(scan), int(series), Path(folder)) if scan else None, shown == "yes")
         finally:
             ended("pairs", check)
-    return views_page(views)
+    return views_page(run, views)

@@ -3,7 +3,7 @@ let lastView = null;
 function press(id, act) {
   document.getElementById(id).addEventListener('click', () => { act(); redraw(); });
 }
-const used = () => lastView ? [lastView] : views;
+const used = () => lastView || views[0];
 for (const view of views) {
   view.canvas.addEventListener('focus', () => { lastView = view; });
   listen(view);
@@ -13,8 +13,8 @@ press('mode', () => {
   windowing = !windowing;
   document.getElementById('mode').setAttribute('aria-pressed', String(windowing));
 });
-press('larger', () => used().forEach(view => view.zoomAt(1.25)));
-press('smaller', () => used().forEach(view => view.zoomAt(0.8)));
+press('larger', () => used().zoomAt(1.25));
+press('smaller', () => used().zoomAt(0.8));
 press('fit', () => [...views, slice].forEach(picture => picture.reset()));
 press('undo', undo);
 press('clear', clearPins);

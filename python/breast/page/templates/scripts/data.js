@@ -10,4 +10,3 @@ function bytes(text) {
 const array = (Kind, text) => new Kind(bytes(text).buffer);
 const left = data.side === 'left';
 const artificial = data.body.landmarks.some(mark => mark.name.startsWith('artificial'));
-data.band_without = data.band_without.replace(/_/g, ' ');

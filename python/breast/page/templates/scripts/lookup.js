@@ -47,5 +47,6 @@ class Lookup {
     return found;
   }
 }
+const sides90 = 1.6449;  // standard deviations to either side that hold 90 %
 const nearestOf = corners => corners.reduce((a, b) => b.weight > a.weight ? b : a);
 const lookups = data.lookups.map(packed => new Lookup(packed));

@@ -23,11 +23,10 @@ changed = () => {
   slice.follow(active());
   redraw();
 };
-document.getElementById('title').textContent = 'Matching views, ' + data.side + ' breast';
 document.getElementById('tumour-legend').hidden = !data.body.landmarks.some(mark => mark.name !== 'nipple');
 if (artificial) document.getElementById('tumour-name').textContent = 'artificial tumour: put there by the program, not a finding';
 document.getElementById('band-legend').hidden = !lookups.some(lookup => lookup.deviation.some(value => value > 0));
-new ResizeObserver(redraw).observe(document.querySelector('main'));
+new ResizeObserver(redraw).observe(document.getElementById('views'));
 // page.html#30,50;MLO:20,40 keeps points as a link or a test asks for; the first view is meant where none is named.
 for (const word of decodeURIComponent(location.hash.slice(1)).split(';').filter(Boolean)) {
   const [place, name] = word.split(':').reverse(), k = Math.max(0, data.images.findIndex(image => image.view === name));

@@ -48,9 +48,8 @@ function drawMargin(view) {
           free, 38, left ? 'right' : 'left');
   }
   pen.textAlign = 'left';
-  const room = Math.min(w / 3, 160);
-  const mm = roundLengths.filter(length => length * view.scale <= room).pop() || 1;
-  drawScale(pen, view.scale, left ? w - 12 : 12 + mm * view.scale, h - 24, room);
+  const bar = 20 * view.scale <= w / 2 ? 20 : 5;  // mm
+  drawScale(pen, view.scale, left ? w - 12 : 12 + bar * view.scale, h - 24, bar * view.scale);
 }
 function drawMarks(view) {
   if (shows('marks')) {

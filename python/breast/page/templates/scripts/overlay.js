@@ -7,10 +7,17 @@ function trace(view, points) {
   });
 }
 function drawBand(view, match, factor, alpha) {
-  const edge = sign => match.curve.map((p, k) => [0, 1].map(
-      c => p[c] + sign * factor * match.deviation[k] * match.across[k][c]));
-  trace(view, edge(1).concat(edge(-1).reverse()));
-  view.pen.closePath();
+  const edge = sign => match.curve.map((p, k) => view.toScreen(...[0, 1].map(
+      c => p[c] + sign * factor * match.deviation[k] * match.across[k][c])));
+  const low = edge(-1), high = edge(1);
+  // Pieces that all turn the same way add up, also where the line bends sharply.
+  view.pen.beginPath();
+  for (let k = 1; k < low.length; ++k) {
+    const piece = [low[k - 1], low[k], high[k], high[k - 1]], [x, y] = [0, 1].map(c => piece.reduce((sum, p) => sum + p[c] / 4, 0));
+    const direction = p => Math.atan2(p[1] - y, p[0] - x);
+    piece.sort((p, q) => direction(p) - direction(q)).forEach((p, i) => i ? view.pen.lineTo(...p) : view.pen.moveTo(...p));
+    view.pen.closePath();
+  }
   view.pen.globalAlpha = alpha;
   view.pen.fill();
   view.pen.globalAlpha = 1;
@@ -37,7 +44,7 @@ function drawMatch(view, point) {
   const pen = view.pen, match = point.match, colour = colourOf(point), main = point === active();
   pen.strokeStyle = pen.fillStyle = colour;
   if (shows('band')) {
-    drawBand(view, match, 1.96, main ? 0.2 : 0.12);
+    drawBand(view, match, sides90, main ? 0.2 : 0.12);
     drawBand(view, match, 0.674, main ? 0.24 : 0.12);
   }
   if (shows('arc')) {

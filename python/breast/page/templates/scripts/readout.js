@@ -7,7 +7,7 @@ function tell() {
   if (!point) readout.textContent = 'Point at a spot in either view; click, tap or press Enter to keep it.';
   else if (!isMatched(point)) readout.textContent = views[point.k].image.view + ': ' + (point.match ? statusText[0] : 'outside the image');
   else {
-    readout.textContent = (point.number ? 'Point ' + point.number + ', ' : '') + describe(point);
+    readout.textContent = (point.number ? 'Point ' + point.number + ': ' : 'This point: ') + describe(point);
     readout.dataset.curve = point.match.curve.map(p => p.map(a => a.toFixed(3)).join(' ')).join(';');
   }
   const shown = active();

@@ -44,7 +44,16 @@ const slice = (() => {
     pen.textAlign = 'left';
     write(pen, 'R', 4, h / 2); write(pen, 'L', w - 14, h / 2);
     drawScale(pen, scale, w - 10, h - 8, w / 4);
-    name.textContent = 'MR, axial slice ' + (k + 1) + ' of ' + nz + ', z ' + z.toFixed(0) + ' mm';
+    name.textContent = title(z);
+  }
+  // The number is that of the scan's own slices.
+  function title(z) {
+    const {plane, count, row} = scan.slices, level = (z < 0 ? 'I ' : 'S ') + Math.abs(z).toFixed(0) + ' mm', point = active();
+    const place = plane === 'axial' ? [x0 + nx * dx / 2, y0 + ny * dy / 2, z] : isMatched(point) ? at(point.match.column) : null;
+    if (!place) return 'MR, axial plane at ' + level;
+    const number = Math.max(1, Math.min(count, 1 + Math.round(row[3] + row[0] * place[0] + row[1] * place[1] + row[2] * place[2])));
+    const words = 'slice ' + number + ' of ' + count;
+    return plane === 'axial' ? 'MR, axial ' + words + ', ' + level : 'MR, axial plane at ' + level + '; the place is in ' + plane + ' ' + words;
   }
   function drawColumn(pen, pin, put, z) {
     const near = pin.match.column.map(p => Math.abs(p[2] - z) <= dz);

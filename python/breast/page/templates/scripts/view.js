@@ -27,7 +27,8 @@ class View {
     this.h = this.canvas.clientHeight;
     const ratio = sharp(), w = Math.round(this.w * ratio), h = Math.round(this.h * ratio);
     if (this.canvas.width !== w || this.canvas.height !== h) Object.assign(this.canvas, {width: w, height: h});
-    this.base = Math.min(this.w / this.width, this.h / this.height);
+    // Both views have one scale, that at which the larger image fits.
+    this.base = Math.min(...views.map(({canvas, width, height}) => Math.min(canvas.clientWidth / width, canvas.clientHeight / height)));
     this.hold();
     this.canvas.style.touchAction = this.zoom > 1 || windowing ? 'none' : 'pan-y';
   }
@@ -43,10 +44,14 @@ class View {
     this.y += dy;
     this.hold();
   }
+  // The other view follows, about its middle.
   zoomAt(factor, x = this.w / 2, y = this.h / 2) {
-    const before = this.scale;
-    this.zoom = Math.min(12, Math.max(1, this.zoom * factor));
-    const ratio = this.scale / before;
+    const zoom = Math.min(12, Math.max(1, this.zoom * factor));
+    for (const view of views) view === this ? view.zoomTo(zoom, x, y) : view.zoomTo(zoom, view.w / 2, view.h / 2);
+  }
+  zoomTo(zoom, x, y) {
+    const ratio = zoom / this.zoom;
+    this.zoom = zoom;
     this.x = x - (x - this.x) * ratio;
     this.y = y - (y - this.y) * ratio;
     this.hold();

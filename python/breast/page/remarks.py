@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is wrong or uncertain about a run, worst first, in the words of those who read the page."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ..cases.compression import VIEWS
+from ..study.advice import CHAIN_STAGES, extended_pattern
+from ..study.stage_report import StageReport
+from ..study.table import one_line, read_table
+
+_WORDS = Path(__file__).with_name("words.tsv")
+_UNKNOWN = 2  # the weight of a warning without a row
+
+
+@dataclass
+class Remark:
+    """weight: 1 the result may be wrong, 2 check something, 3 good to know. said: the warnings behind it, as "stage: words"."""
+
+    weight: int
+    words: str
+    said: list[str] = field(default_factory=list)
+
+
+def remarks_of(run: Path) -> list[Remark]:
+    """Every warning of the stages of a run in the words of words.tsv, worst first: one remark for all warnings of a row, and a warning
+    without a row as it is."""
+    table = [(extended_pattern(row["pattern"], str(_WORDS)), int(row["weight"]), row["words"]) for row in read_table(_WORDS)]
+    remarks: dict[str, Remark] = {}
+    for stage in CHAIN_STAGES:
+        for text in map(one_line, StageReport.read(run / f"{stage}.json").texts("warnings")):
+            weight, said = next(((weight, said) for pattern, weight, said in table if pattern.search(text)), (_UNKNOWN, text))
+            remarks.setdefault(said, Remark(weight, said)).said.append(f"{stage}: {text}")
+    return sorted(remarks.values(), key=lambda remark: remark.weight)
+
+
+def banners_of(run: Path) -> list[tuple[str, str]]:
+    """For each view that is no compression, or stopped before its end: a headline for people, and the program's reason."""
+    banners = []
+    for view in VIEWS:
+        report = StageReport.read(run / f"{view}.json")
+        status, name = report.text("status"), report.text("view") or view.upper()
+        why = one_line(report.text("explanation") or report.text("reason") or status)
+        nothing = f"There is no {name} image, and no line to or from it."
+        reduction = report.number("reduction_percent")
+        early = "the simulated compression stopped early" + (f", when the breast was {reduction:.0f} % thinner" if reduction else "")
+        if status == "not_gripped":
+            banners.append((f"{name}: the simulated plates do not hold the breast. {nothing}", why))
+        elif status == "stopped_early" and report.find("accepted") is False:
+            banners.append((f"{name}: {early}, which is not enough. {nothing}", why))
+        elif status == "stopped_early":
+            banners.append((f"{name}: {early}. The image shows a breast that is pressed less firmly than in an examination.", why))
+        elif status not in ("", "ok", "converged") or report.find("accepted") is False:
+            banners.append((f"{name}: the simulated compression failed. {nothing}", why))
+    return banners
