@@ -104,7 +104,8 @@ def views_page(run: Path, views: Views) -> str:
     lines = _lines_of_tumour(views)
     pictures = _pictures(views, lines)
     tumour = facts_of_tumour(views.body, views.pairs, views.labels, views.scan.grid if views.scan else None) if views.origin != "none" else []
-    breast = facts_of_breast(StageReport.read(run / "labels.json"), [StageReport.read(run / f"{view}.json") for view in VIEWS])
+    compressions = [StageReport.read(state.file.with_suffix(".json")) for _, state in views.pairs]
+    breast = facts_of_breast(StageReport.read(run / "labels.json"), compressions)
     scripts = [Markup((_TEMPLATES / f"scripts/{name}.js").read_text(encoding="utf-8")) for name in _SCRIPTS]
     widths = [picture.size[0] for picture in pictures]
     made = page("views", _TEMPLATES, title=_title(views), banners=banners_of(run), remarks=remarks_of(run),
