@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // compress: compresses a breast between two plates.
+#include <limits>
 #include <optional>
 
 #include "cli/mechanics_options.hpp"
@@ -25,6 +26,7 @@ struct Choices : CompressionChoices {
   std::optional<double> at_least;
   MechanicsChoices mechanics;
   std::string estimate = "step";
+  StatesChoice states;
 };
 
 void declare(Tool& tool, Choices& c) {
@@ -76,6 +78,8 @@ void declare(Tool& tool, Choices& c) {
   tool.example(
       "compress reference.vtkhdf cc.vtkhdf --view CC --reduction 50 --pressure 10 --image-edge auto",
       "with the plates placed as on a mammography machine, to half the thickness or 10 kPa");
+  tool.example("compress reference.vtkhdf cc.vtkhdf --view CC --states 12",
+               "and the closing of the plates in twelve steps, in cc-states");
   tool.example("compress reference.vtkhdf mlo.vtkhdf --view MLO --angle 50 --force 100",
                "mediolateral oblique at 50 degrees until the paddle presses with 100 N");
   tool.example("compress reference.vtkhdf mlo.vtkhdf --view MLO --like MG.dcm",
@@ -179,6 +183,8 @@ void declare(Tool& tool, Choices& c) {
               "contact algorithm: exact active set, or the paper's augmented Lagrangian");
   declare_mechanics(tool, c.mechanics, "REFERENCE");
   declare_estimate(tool, c.estimate);
+  declare_states(tool, c.states,
+                 "while the plates close from first contact, in equal steps of thickness");
   tool.check([&c] {
     parse_gravity(c.gravity);
     parse_detector(c.detector);
@@ -212,18 +218,38 @@ bool is_enough(const CompressionResult& found, const std::optional<double>& at_l
   return found.contact->reduction_percent >= at_least.value_or(0);
 }
 
+void add_states(const CompressionResult& result, MechanicsRun& mechanics, StateSeries& series) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  for (const ClosingState& state : result.states) {
+    const auto force = [&](std::size_t plate) {
+      return state.contact ? state.contact->plates[plate].force_N : unknown;
+    };
+    mechanics.add_state(series, state,
+                        {{"closed_mm", result.states.front().thickness - state.thickness},
+                         {"thickness_mm", state.thickness},
+                         {"paddle_N", force(0)},
+                         {"detector_N", force(1)},
+                         {"hand_carries_percent", 100 * state.hand_carries},
+                         {"hand_pulls_N", state.hand_pulls_N}});
+  }
+  mechanics.tell_states({result.states.begin(), result.states.end()});
+}
+
 void run_compress(Choices c, Run& run) {
   MechanicsRun mechanics(run, c.mechanics, c.estimate, c.reference,
                          restricted(read_mesh(c.reference, {.reference = true}), breast_elements));
   const HexMesh& mesh = mechanics.mesh();
   take_from_mammogram(c, mesh, run);
-  const CompressionOptions options = compression_options(
+  std::optional<StateSeries> states = c.states.series(c.compressed, mesh);
+  CompressionOptions options = compression_options(
       c, parse_gravity(c.gravity), {mechanics.options().wall->slides(), muscle_thickness(mesh)});
+  options.states = c.states.number;
   CompressionResult found = compress(mesh, options, mechanics.options(), run.progress());
   if (mechanics.options().estimate == Estimate::q2 && found.contact) {
     CompressionOptions same_gap = options;
     same_gap.stops = {{StopAt::thickness, found.contact->thickness_mm}};
     same_gap.must_grip = false;
+    same_gap.states = 0;
     estimate_by_second_solution(mesh, mechanics.options(), found,
                                 [&](const HexMesh& richer, const MechanicsOptions& same) {
                                   return compress(richer, same_gap, same, run.progress());
@@ -232,7 +258,10 @@ void run_compress(Choices c, Run& run) {
   write_report(found, mesh, mechanics.options(), run.report());
   const bool enough = is_enough(found, c.at_least);
   run.report().set("accepted", found.converged() || enough);
-  mechanics.finish(found, c.compressed, enough, plate_lines(run.report()));
+  const bool on_the_way = states && (found.converged() || enough);
+  if (on_the_way) add_states(found, mechanics, *states);
+  mechanics.finish(found, c.compressed, enough, plate_lines(run.report()),
+                   on_the_way ? &*states : nullptr);
 }
 
 }  // namespace

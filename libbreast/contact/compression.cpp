@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "contact/closing_states.hpp"
 #include "contact/faces.hpp"
 #include "contact/failure.hpp"
 #include "contact/grip.hpp"
@@ -60,6 +61,7 @@ class Compression {
   double load_reached() const;
   void judge_against_practice();
   void refuse_without_grip();
+  void solve_states(const PathOptions& path, ContactSolver& contact);
 
   const HexMesh& mesh_;
   const CompressionOptions& options_;
@@ -72,6 +74,7 @@ class Compression {
   CompressionTarget target_;
   CompressionResult found_;
   SolveLog log_{found_, progress_};
+  int of_states_ = 0;  // factorisations of the states on the way
 };
 
 /// Loads the body alone, in steps if one step does not converge. `name` is the name of the load.
@@ -113,6 +116,7 @@ void Compression::set_target() {
 PathOptions Compression::path_options(const ContactSolver& contact) {
   PathOptions path = options_.path;
   path.control_tolerance = std::max(path.control_tolerance, contact.resolution());
+  path.keep = options_.states > 0;
   if (options_.positioning == Positioning::hanging) return path;
   const Hand hand;
   path.prepare = [this, hand](double way) {
@@ -150,10 +154,10 @@ void Compression::close_plates(State& state) {
   const auto area = [&](const State& s) {
     return touching_area(mesh_, faces, s.x, found_.plates.paddle);
   };
+  const PathOptions path = path_options(*contact);
   {
     Timer::Scope phase(found_.timer, "contact");
-    found_.path = follow_path(*contact, found_.plates, state, target_, area, path_options(*contact),
-                              progress_);
+    found_.path = follow_path(*contact, found_.plates, state, target_, area, path, progress_);
   }
   record_path();
   if (found_.path.points.empty()) {
@@ -174,6 +178,19 @@ void Compression::close_plates(State& state) {
   check_stability(state, *contact);
   if (scene_.options().estimate == Estimate::step) estimate(state, *contact);
   say_how_it_ended(state);
+  if (options_.states > 0) solve_states(path, *contact);
+}
+
+/// The states on the way, and the result as the last of them.
+void Compression::solve_states(const PathOptions& path, ContactSolver& contact) {
+  Timer::Scope phase(found_.timer, "states");
+  const int factorisations = solver_.factorisations();
+  found_.states = solve_closing(scene_, options_, found_, path, *body_.load, options_.states - 1,
+                                contact, progress_);
+  found_.states.emplace_back();
+  static_cast<Equilibrium&>(found_.states.back()) = found_;
+  found_.states.back().thickness = found_.path.thickness;
+  of_states_ = solver_.factorisations() - factorisations;
 }
 
 /// The tangent of the final state with its touching nodes constrained, including the rotation of
@@ -347,7 +364,7 @@ CompressionResult Compression::run() {
     say_where_plates_stand();
     close_plates(state);
   }
-  found_.factorisations = solver_.factorisations();
+  found_.factorisations = solver_.factorisations() - of_states_;
   return std::move(found_);
 }
 
@@ -366,6 +383,9 @@ void check(const HexMesh& mesh, const CompressionOptions& options,
     if (stop.at == StopAt::reduction && !(stop.value < 100)) {
       throw input_error("reduction ", stop.value, " %: must be below 100");
     }
+  }
+  if (options.states < 0 || options.states == 1) {
+    throw input_error("states ", options.states, ": must be at least 2, or 0 for none");
   }
   if (!(options.pull_N >= 0 && options.pull_N <= 500)) {
     throw input_error("pull ", options.pull_N, " N: must lie within 0 and 500");

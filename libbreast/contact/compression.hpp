@@ -36,6 +36,14 @@ struct CompressionOptions {
   double pull_N = 0;    ///< force with which the hand pulls the lifted breast forwards
   double friction = 0;  ///< Coulomb's μ between skin and plates
   PathOptions path;
+  int states = 0;  ///< number of CompressionResult::states, at least 2, or none
+};
+
+/// An equilibrium on the way of the plates, whose forces are those of Equilibrium::contact.
+struct ClosingState : Equilibrium {
+  double thickness = 0;     ///< mm, also of a state that was not found
+  double hand_carries = 0;  ///< share of the breast's weight that a hand still carries
+  double hand_pulls_N = 0;  ///< force with which it still pulls the breast forwards
 };
 
 /// A compressed breast. Pose, thickness and the plates' forces are those of Equilibrium::contact.
@@ -60,6 +68,9 @@ struct CompressionResult : Equilibrium {
   /// Of plates placed by the edge of the image: the state is within the ranges that decide, whether or
   /// not the target was reached.
   bool acceptable = false;
+  /// If asked for: equilibria from first contact to this result, which is the last, in equal steps of
+  /// thickness (contact/closing_states.hpp).
+  std::vector<ClosingState> states;
 };
 
 /// Compresses mesh.reference. A compression that stops early returns its last equilibrium with the

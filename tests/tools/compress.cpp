@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "core/report.hpp"
+#include "core/table.hpp"
 #include "fixtures/analytic_mesh.hpp"
 #include "fixtures/run_tool.hpp"
 #include "fixtures/scratch_folder.hpp"
@@ -197,6 +198,27 @@ TEST_F(CompressTool, RefusesWhatItCannotDo) {
     EXPECT_EQ(result.error_lines(), 1) << result.err;
     EXPECT_FALSE(wrote());
   }
+}
+
+TEST_F(CompressTool, StatesOfTheClosing) {
+  ASSERT_EQ(compress({"CC", "--reduction", "30"}).exit_code, 0);
+  const std::string alone = read_mesh(folder_ / "out.vtkhdf").content_sha256;
+  const ToolResult result = compress({"CC", "--reduction", "30", "--states", "3"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(report().number("states/found"), 3);
+  EXPECT_EQ(read_mesh(folder_ / "out.vtkhdf").content_sha256, alone);
+  EXPECT_EQ(read_mesh(folder_ / "out-states/state_003.vtkhdf").content_sha256, alone);
+  const Table table = read_table(folder_ / "out-states/states.tsv");
+  ASSERT_EQ(table.rows.size(), 3u);
+  EXPECT_EQ(table.number(0, "closed_mm"), 0);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_LT(table.number(k, "residual"), 1e-9);
+    const HexMesh state = read_mesh(folder_ / "out-states" / table.cell(k, "file"));
+    EXPECT_NEAR(state.contact->thickness_mm, table.number(k, "thickness_mm"), 1e-9);
+  }
+  // A compression that is not accepted leaves both as they are.
+  EXPECT_EQ(compress({"CC", "--reduction", "95", "--states", "4"}).exit_code, 3);
+  EXPECT_EQ(read_mesh(folder_ / "out-states/state_003.vtkhdf").content_sha256, alone);
 }
 
 }  // namespace

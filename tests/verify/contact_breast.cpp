@@ -401,3 +401,60 @@ TEST(Compression, ErrorIsEstimatedWithFrictionAndWithSprings) {
     std::printf("estimate %.3f mm, second solution %.3f mm\n", estimate, found.error_estimate_mm);
   }
 }
+
+// Without friction the way of the plates does not matter: each state on it is the compression to its
+// thickness, and the states leave the result as it is.
+TEST(CompressionStates, AreCompressionsToTheirThickness) {
+  CompressionOptions options = halfway(View::cc);
+  HexMesh alone = stress_free_breast(), mesh = alone;
+  fixtures::compress_into(alone, options, mechanics());
+  options.states = 4;
+  const CompressionResult found = fixtures::compress_into(mesh, options, mechanics());
+  ASSERT_TRUE(found.converged());
+  EXPECT_EQ(alone.points, mesh.points);
+  ASSERT_EQ(found.states.size(), 4u);
+  EXPECT_EQ(found.states.back().points, found.points);
+  const double first = found.states.front().thickness, last = found.contact->thickness_mm;
+  EXPECT_EQ(found.states.front().contact->plates[0].force_N, 0) << "the plates just touch";
+  for (int k = 0; k < 4; ++k) {
+    const ClosingState& state = found.states[std::size_t(k)];
+    EXPECT_TRUE(state.converged()) << state.record.reason;
+    EXPECT_LT(state.residual, 1e-9);
+    EXPECT_NEAR(state.thickness, first + (last - first) * k / 3, 1e-9);
+    EXPECT_EQ(state.thickness, state.contact->thickness_mm);
+    if (!(state.thickness < found.contact->initial_thickness_mm)) continue;
+    options.stops = {{StopAt::thickness, state.thickness}};
+    options.states = 0;
+    HexMesh direct = stress_free_breast();
+    ASSERT_TRUE(fixtures::compress_into(direct, options, mechanics()).converged());
+    double apart = 0;
+    for (std::size_t n = 0; n < direct.points.size(); ++n)
+      apart = std::max(apart, (direct.points[n] - state.points[n]).norm());
+    EXPECT_LT(apart, 1e-6) << state.thickness;
+    EXPECT_NEAR(direct.contact->plates[0].force_N, state.contact->plates[0].force_N, 1e-6);
+  }
+}
+
+// As in the clinic: the hand lets go on the way, and every state is in equilibrium with what it still holds.
+TEST(CompressionStates, OfALiftedBreastLetTheHandGo) {
+  CompressionOptions options = halfway(View::cc);
+  options.method = ContactMethod::surface;
+  options.positioning = Positioning::lifted;
+  options.friction = 0.3;
+  options.stops = {{StopAt::reduction, 20}};
+  options.states = 4;
+  HexMesh mesh = stress_free_breast();
+  const CompressionResult found = fixtures::compress_into(mesh, options, mechanics());
+  ASSERT_TRUE(found.converged()) << found.record.reason;
+  ASSERT_EQ(found.states.size(), 4u);
+  EXPECT_EQ(found.states.front().hand_carries, 1);
+  EXPECT_EQ(found.states.back().hand_carries, 0);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const ClosingState& state = found.states[k];
+    EXPECT_TRUE(state.converged()) << state.record.reason;
+    EXPECT_LT(state.residual, 1e-9);
+    if (k == 0) continue;
+    EXPECT_LT(state.thickness, found.states[k - 1].thickness);
+    EXPECT_LE(state.hand_carries, found.states[k - 1].hand_carries);
+  }
+}

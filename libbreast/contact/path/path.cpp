@@ -17,7 +17,6 @@
 #include <optional>
 
 #include "contact/path/step_length.hpp"
-#include "contact/path/waypoint.hpp"
 #include "core/error.hpp"
 
 namespace breast {
@@ -130,6 +129,7 @@ class Path {
   bool step_back();
   void drop_points_beyond_here();
   void tell(const PathPoint& point) const;
+  void keep(const Waypoint& at);
 
   double longest_step() const;
   double sought() const { return std::min(tolerance_, sought_tolerance); }
@@ -185,8 +185,10 @@ bool Path::solve_start(const State& state) {
   trail_.begin({state, solver_.memory(), plates_.thickness(), {}, 0, state});
   std::optional<Waypoint> start =
       solve_at(plates_.thickness(), {state, solver_.memory()}, 0, options_.path_tolerance);
-  if (start) trail_.begin(std::move(*start));
-  return start.has_value();
+  if (!start) return false;
+  keep(*start);
+  trail_.begin(std::move(*start));
+  return true;
 }
 
 /// Closes the plates step by step, until a target is passed or no step is possible any more.
@@ -224,6 +226,7 @@ PathEnd Path::close_plates() {
     }
     const CompressionTarget* target = may_end(*reached) ? passed(reached->point) : nullptr;
     if (target != nullptr) return end_at(*target, std::move(*reached));
+    keep(*reached);
     trail_.advance(std::move(*reached));
   }
   return PathEnd::solve_limit;
@@ -285,6 +288,7 @@ PathResult Path::conclude(State& state) {
   if (result_.points.empty()) result_.end = PathEnd::no_equilibrium;
   if (result_.reached()) result_.failed_trial.resize(0);
   const Waypoint& here = trail_.here();
+  keep(here);
   plates_.close_to(here.thickness);
   solver_.restore(here.memory);
   result_.thickness = here.thickness;
@@ -447,6 +451,14 @@ bool Path::step_back() {
 void Path::drop_points_beyond_here() {
   std::vector<PathPoint>& points = result_.points;
   while (!points.empty() && points.back().thickness != trail_.here().thickness) points.pop_back();
+}
+
+/// Keeps a position if asked for, and forgets those beyond it, from which the path went back.
+void Path::keep(const Waypoint& at) {
+  if (!options_.keep) return;
+  std::vector<Waypoint>& kept = result_.kept;
+  while (!kept.empty() && kept.back().thickness <= at.thickness) kept.pop_back();
+  kept.push_back(at);
 }
 
 void Path::tell(const PathPoint& point) const {

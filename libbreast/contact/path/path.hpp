@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "contact/path/target.hpp"
+#include "contact/path/waypoint.hpp"
 #include "contact/plates.hpp"
 #include "contact/solvers/solver.hpp"
 #include "core/progress.hpp"
@@ -37,6 +38,8 @@ struct PathOptions {
   std::vector<double> corners;
   /// A target other than a thickness may end the path from this part of the way on.
   double may_end_from = 0;
+  /// Whether PathResult::kept is filled.
+  bool keep = false;
 };
 
 /// Why a path ended.
@@ -69,6 +72,8 @@ struct PathResult {
   int solves = 0, failures = 0, iterations = 0, indefinite = 0;
   std::optional<double> first_indefinite_thickness;  ///< mm; absent if the tangent was never
                                                      ///< indefinite
+  /// The positions from the first to the final one, in order of decreasing thickness, if asked for.
+  std::vector<Waypoint> kept;
 };
 
 /// Returns the area (mm²) over which a state touches the paddle where it stands, for the mean pressure

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/state_series.hpp"
 
-#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <regex>
 
@@ -76,7 +76,8 @@ void StateSeries::add(const SeriesRow& row, const HexMesh* mesh) {
   char name[32];
   std::snprintf(name, sizeof name, "state_%03zu.vtkhdf", number);
   std::vector<std::string> cells{std::to_string(number), mesh ? name : std::string(empty_cell)};
-  for (const auto& [quantity, value] : row.quantities) cells.push_back(format_number(value));
+  for (const auto& [quantity, value] : row.quantities)
+    cells.push_back(std::isfinite(value) ? format_number(value) : std::string(empty_cell));
   cells.insert(cells.end(), {status_name(row.status), format_number(row.residual),
                              std::to_string(row.iterations)});
   for (const Landmark& landmark : landmarks_) {
