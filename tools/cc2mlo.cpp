@@ -137,6 +137,14 @@ void print_or_write(Table table, const std::vector<MatchResult>& results,
   write_table(summary, truth_statistics(results));
 }
 
+// The patient's images without marks, as far as they are asked for.
+void write_hung(const MatchChoices& choices, const PatientViews& patient, bool from_cc) {
+  const AlignedView &cc = from_cc ? patient.from() : patient.to(),
+                    &mlo = from_cc ? patient.to() : patient.from();
+  if (!choices.cc_hung.empty()) write_picture_png(choices.cc_hung, cc.hung());
+  if (!choices.mlo_hung.empty()) write_picture_png(choices.mlo_hung, mlo.hung());
+}
+
 void run_match(const MatchChoices& choices, Run& run) {
   const HexMesh from = read_mesh(choices.from, {.contact = true});
   const HexMesh to = read_mesh(choices.to, {.contact = true});
@@ -184,6 +192,7 @@ void run_match(const MatchChoices& choices, Run& run) {
   if (!choices.picture.empty()) {
     write_picture_png(choices.picture, patient->picture(matcher, results));
   }
+  if (patient != nullptr) write_hung(choices, *patient, matcher.from_frame().view == View::cc);
   write_polylines(choices.curve, lines);
 }
 

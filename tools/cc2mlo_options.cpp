@@ -15,8 +15,10 @@ void MatchChoices::check() const {
   if (cc_image.empty() != mlo_image.empty()) {
     throw input_error("--cc-image and --mlo-image must be given together");
   }
-  if (cc_image.empty() && !(picture.empty() && cc_nipple.empty() && mlo_nipple.empty())) {
-    throw input_error("--picture, --cc-nipple and --mlo-nipple need --cc-image and --mlo-image");
+  if (cc_image.empty() && !(picture.empty() && cc_nipple.empty() && mlo_nipple.empty() &&
+                            cc_hung.empty() && mlo_hung.empty())) {
+    throw input_error(
+        "--picture, --cc-hung, --mlo-hung, --cc-nipple and --mlo-nipple need --cc-image and --mlo-image");
   }
   if (!cc_image.empty() && !question.truth.empty()) {
     throw input_error("--truth is in mm and cannot be combined with --cc-image");
@@ -44,6 +46,11 @@ void declare_images(Tool& tool, MatchChoices& choices) {
   tool.numbers(
       choices.mlo_nipple, "--mlo-nipple", "x,y", 2,
       "nipple in the other image in pixels (default: the most anterior point of the outline)");
+  tool.output_file(
+      choices.cc_hung, "--cc-hung", "OUT.png",
+      "the patient's CC mammogram without marks, hung as in the clinic, with pixels of at least 0.2 mm; the report says "
+      "where (u,v) of the simulated view lie in it");
+  tool.output_file(choices.mlo_hung, "--mlo-hung", "OUT.png", "the same of the other view");
   tool.output_file(choices.picture, "--picture", "OUT.png",
                    "the second image with the curve, bands, arc and nipple drawn over it");
   tool.output_file(choices.curve_table, "--curve-table", "OUT.tsv",

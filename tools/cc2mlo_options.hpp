@@ -22,7 +22,7 @@ struct MatchChoices {
   std::string materials;
   std::string geometry = "parallel", accept_other;
   /// The patient's images, and the outputs for them.
-  std::filesystem::path cc_image, mlo_image, picture, curve_table;
+  std::filesystem::path cc_image, mlo_image, picture, cc_hung, mlo_hung, curve_table;
   std::vector<double> cc_nipple, mlo_nipple;  ///< in pixels
 
   /// Throws Error (input) if options contradict each other.

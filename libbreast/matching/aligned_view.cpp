@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "matching/aligned_view.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -9,6 +10,8 @@
 namespace breast {
 
 namespace {
+
+constexpr double finest_hung = 0.25;  // mm
 
 const HexMesh& checked_mesh(const MammogramScan& scan, const Matcher& matcher, MatchEnd end,
                             const std::string& where) {
@@ -64,6 +67,35 @@ AlignedView::AlignedView(MammogramScan scan, const Matcher& matcher, MatchEnd en
   alignment_ = aligned(scan_, axes_, frame, radius, simulated_, landmark, nipple, where);
 }
 
+int AlignedView::block() const {
+  return std::max(1, int(finest_hung / pixel_mm() + 0.5));
+}
+
+Vec2 AlignedView::hung_corner() const {
+  const Vec2 last = axes_.mm(Vec2(scan_.header.columns - 1, scan_.header.rows - 1));
+  const Vec2 half = Vec2::Constant(0.5 * pixel_mm());
+  return left() ? Vec2(last.cwiseMin(0) - half) : Vec2(last.cwiseMax(0) + half);
+}
+
+ColourPicture AlignedView::hung() const {
+  const MammogramHeader& header = scan_.header;
+  const Vec2 along = axes_.mm(Vec2(1, 1)) * (left() ? 1 : -1);
+  const int wide = block(), width = (header.columns + wide - 1) / wide,
+            height = (header.rows + wide - 1) / wide;
+  std::vector<float> sum(std::size_t(width) * std::size_t(height), 0), count(sum);
+  for (int y = 0; y < header.rows; ++y) {
+    for (int x = 0; x < header.columns; ++x) {
+      const int column = along.x() > 0 ? x : header.columns - 1 - x;
+      const int row = along.y() > 0 ? y : header.rows - 1 - y;
+      const std::size_t to = std::size_t(y / wide) * std::size_t(width) + std::size_t(x / wide);
+      sum[to] += scan_.at(column, row);
+      count[to] += 1;
+    }
+  }
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] /= count[i];
+  return {width, height, sum};
+}
+
 void AlignedView::report(Report& report) const {
   const std::string key = "aligned/" + view_name(compression_.view) + "/";
   const Similarity& map = alignment_.map;
@@ -77,7 +109,10 @@ void AlignedView::report(Report& report) const {
   report.set(key + "nipple_mm", alignment_.nipple_mm);
   report.set(key + "edge_mm", alignment_.edge_mm);
   report.set(key + "outline_within_percent", 100 * alignment_.used);
+  report.set(key + "deviation_mm", alignment_.deviation_mm());
   report.set(key + "pixel_mm", scan_.header.pixel_mm);
+  report.set(key + "hung/pixel_mm", hung_pixel_mm());
+  report.set(key + "hung/corner_mm", std::vector<double>{hung_corner().x(), hung_corner().y()});
   if (scan_.header.magnification != 1)
     report.set(key + "header/magnification", scan_.header.magnification);
   report.set(key + "simulated/thickness_mm", compression_.thickness_mm);

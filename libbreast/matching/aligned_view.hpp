@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/report.hpp"
+#include "image/colour_picture.hpp"
 #include "matching/correspondence.hpp"
 #include "matching/similarity.hpp"
 #include "projection/mammogram_scan.hpp"
@@ -31,12 +32,24 @@ class AlignedView {
   const std::vector<Vec2>& simulated_outline() const { return simulated_; }  ///< (u,v), mm
   double pixel_mm() const { return scan_.header.pixel_mm; }
 
+  /// The patient's image without marks, hung as in the clinic: the chest wall at the left edge for a
+  /// left breast and at the right edge for a right one, lateral or superior at the top. Its pixels
+  /// are means over blocks of the image's, hung_pixel_mm() wide.
+  ColourPicture hung() const;
+  double hung_pixel_mm() const { return block() * pixel_mm(); }
+  /// The upper left corner of that picture in mm along the image axes: (x, y) mm from it lies at the
+  /// corner plus (x, y) for a left breast and minus (x, y) for a right one.
+  Vec2 hung_corner() const;
+
   /// Writes the keys aligned/VIEW/...: similarity, residuals, comparison of header and simulation.
   void report(Report& report) const;
   /// Doubts: differences between header and simulation, or a poor fit.
   std::vector<std::string> doubts() const;
 
  private:
+  int block() const;
+  bool left() const { return scan_.header.side == Side::left; }
+
   MammogramScan scan_;
   ContactRecord compression_;
   std::string where_;

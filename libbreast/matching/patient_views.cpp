@@ -37,7 +37,9 @@ void draw_band(ColourPicture& picture, const AlignedView& view, const MatchResul
   for (std::size_t l = 0; l < low.size(); ++l) {
     const auto a = pixels(view, low[l]), b = pixels(view, high[l]);
     for (std::size_t i = 1; i < a.size(); ++i) {
-      picture.quadrilateral({a[i - 1], a[i], b[i], b[i - 1]});
+      // Where the curve turns sharply the sides change places; their lines must not cross.
+      const bool crossed = (a[i] - b[i]).dot(a[i - 1] - b[i - 1]) < 0;
+      picture.quadrilateral({a[i - 1], crossed ? b[i] : a[i], crossed ? a[i] : b[i], b[i - 1]});
     }
   }
 }

@@ -117,9 +117,13 @@ TEST_F(PatientMammograms, AKnownMisalignmentIsFoundAndTheCurveLiesWhereItBelongs
   const Matcher matcher(cc, mlo);
   const Vec2 tumour = *matcher.from_landmark("tumour");
   const ToolResult result =
-      run("cc2mlo", {"cc.vtkhdf", "mlo.vtkhdf", "curve.vtp", "--cc-image", "cc.dcm", "--mlo-image",
-                     "mlo.dcm", "--point", pair_of(true_pixel("cc", tumour)), "--band", "--picture",
-                     "where.png", "--curve-table", "where.tsv", "--report", "where.json"});
+      run("cc2mlo", {"cc.vtkhdf",     "mlo.vtkhdf",  "curve.vtp",
+                     "--cc-image",    "cc.dcm",      "--mlo-image",
+                     "mlo.dcm",       "--point",     pair_of(true_pixel("cc", tumour)),
+                     "--band",        "--picture",   "where.png",
+                     "--curve-table", "where.tsv",   "--report",
+                     "where.json",    "--cc-hung",   "cc-hung.png",
+                     "--mlo-hung",    "mlo-hung.png"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const Report report = Report::parse(read_text(file("where.json")), "where.json");
   for (const std::string view : {"cc", "mlo"}) {
@@ -128,6 +132,12 @@ TEST_F(PatientMammograms, AKnownMisalignmentIsFoundAndTheCurveLiesWhereItBelongs
     EXPECT_NEAR(report.number(key + "rotation_deg"), map(view).rotation_deg, 0.3) << view;
     EXPECT_LT(report.number(key + "residual_mm"), 0.2) << view;
     EXPECT_LT(report.number(key + "pose_mm"), 0.3) << view;
+    EXPECT_NEAR(report.number(key + "hung/pixel_mm"), pixel(view), 1e-9) << view;
+    // The header of a PNG states its width in bytes 16 to 19.
+    const std::string png = read_text(file(view + "-hung.png")).substr(16, 4);
+    int width = 0;
+    for (const char byte : png) width = 256 * width + static_cast<unsigned char>(byte);
+    EXPECT_EQ(width, int(145 / pixel(view))) << view;
   }
   // Every point of the curve in pixels against the truth's: the simulated curve of the true point,
   // carried by the known similarity.
