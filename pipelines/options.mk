@@ -17,6 +17,7 @@ content_MATERIALS := $(call content,$(call set_of,$(MATERIALS)))
 content_TUMOUR := $(call content,$(TUMOUR))
 content_CHEST_WALL := $(call content,$(CHEST_WALL))
 content_LANDMARKS := $(call content,$(subst $(comma), ,$(LANDMARKS)))
+content_MAMMOGRAMS := $(call content,$(subst $(comma), ,$(MAMMOGRAMS)))
 content_SUPINE := $(call content,$(SUPINE))
 
 # With landmarks in a second posture, or a supine scan of the same patient, the set MATERIALS is the prior, and the chain runs with the
@@ -57,7 +58,7 @@ MATERIAL_TABLE := $(call set_of,$(MATERIALS))
 of_a_tumour := $(addprefix $(RUN)/,curve.vtp curve.tsv curve.json .curve.settings band.vtp band.tsv band-curve.tsv band.json \
   figures/*-matching.png slicer/scene.mrml slicer/column-* slicer/curve-*)
 # $(call of_the_plates,VIEW): what is made of a compressed shape.
-of_the_plates = $(addprefix $(RUN)/,$1.vti $1.png $1-sensitivity.vtkhdf $1-sensitivity.tsv lookup.h5 page.html curves.vtp curves.tsv \
+of_the_plates = $(addprefix $(RUN)/,$1.vti $1.png $1-sensitivity.vtkhdf $1-sensitivity.tsv lookup.h5 page.html patient.json patient-cc.png patient-mlo.png curves.vtp curves.tsv \
   figures/$1-mammogram.png figures/cc-points.png figures/mlo-curves.png) $(of_a_tumour)
 # Contours for checking the labels; a program that replaces segment need not draw them.
 contours := $(if $(filter $(BIN)/segment,$(SEGMENT)),--overlay $(RUN)/contours.png)

@@ -9,9 +9,19 @@ page_states := $(RUN)/cc$(derivatives).vtkhdf $(RUN)/mlo$(derivatives).vtkhdf
 lookup_settings := $(MATCH_LOOKUP) $(page_states)
 $(RUN)/lookup.h5: $(page_states) $(MATCH_LOOKUP) $(call changed,lookup)
 	$(call of_pressed,lookup) $(MATCH_LOOKUP) $(page_states) $@ --both-ways --pitch 1 $(common)
+# The patient's own mammograms as they are hung, and where the simulated views lie in them. cc2mlo asks for some point.
+ifneq ($(MAMMOGRAMS),)
+mammograms := $(subst $(comma), ,$(MAMMOGRAMS))
+of_patient := $(addprefix $(RUN)/patient,.json -cc.png -mlo.png)
+patient_settings := $(CC2MLO) $(page_states) $(call named,$(firstword $(mammograms))) $(call named,$(lastword $(mammograms))) $(content_MAMMOGRAMS)
+$(of_patient) &: $(page_states) $(CC2MLO) $(call changed,patient)
+	$(call of_pressed,patient) $(CC2MLO) $(page_states) $(RUN)/patient.vtp --grid 1 --table $(RUN)/patient.tsv --cc-image $(firstword $(mammograms)) \
+	  --mlo-image $(lastword $(mammograms)) --cc-hung $(RUN)/patient-cc.png --mlo-hung $(RUN)/patient-mlo.png --report $(RUN)/patient.json $(share)
+endif
 # The page is also made of what there is when the plates do not hold the breast: it says so.
-page_settings := $(TABULATE) $(call named,$(MR)) $(page_options)
-$(RUN)/page.html: $(RUN)/lookup.h5 $(addprefix $(RUN)/,cc.vti mlo.vti labels.vtkhdf mesh.vtkhdf) $(MR_FILES) $(TABULATE) $(call changed,page)
+page_settings := $(TABULATE) $(call named,$(MR)) $(page_options) $(of_patient)
+$(RUN)/page.html: $(RUN)/lookup.h5 $(addprefix $(RUN)/,cc.vti mlo.vti labels.vtkhdf mesh.vtkhdf) $(of_patient) $(MR_FILES) $(TABULATE) $(call changed,page)
+	@$(if $(of_patient),,rm -f $(addprefix $(RUN)/patient,.json .vtp .tsv -cc.png -mlo.png))
 	$(call prints,page,$@) $(tabulate) page $(RUN) $(MR) $(page_options)
 page: $(RUN)/page.html
 	$(gripped)

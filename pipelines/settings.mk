@@ -13,6 +13,7 @@ CHEST_WALL ?=
 LABELS_TRUTH ?=
 LANDMARKS ?=
 SUPINE ?=
+MAMMOGRAMS ?=
 # The paper places its tumour freely, at the margin of the gland; that of the phantom has a known displacement. No tumour is added to a
 # patient's scan unless the user asks for one.
 TUMOUR ?= $(if $(phantom),$(PHANTOM_TRUTH)/tumour-$(SIDE).tsv,none)

@@ -14,6 +14,7 @@ MATERIALS path case set -
 LANDMARKS path case - -
 CHEST_WALL path case - -
 SUPINE path case - -
+MAMMOGRAMS path case - -
 SIDE name case left|right -
 CASE name case - -
 PRESET name case average|paper -
@@ -134,6 +135,8 @@ class Settings(InFolder):
     def test_files_and_programs_that_are_not_there_are_refused_by_name(self):
         self.assertIn("CHEST_WALL: 'none.vtp' does not exist", self.refusal(CHEST_WALL="none.vtp"))
         self.assertIn("LANDMARKS: 'b.tsv' does not exist", self.refusal(LANDMARKS=f"{self.folder}/a.tsv,b.tsv"))
+        self.assertIn("MAMMOGRAMS: 'b.dcm' does not exist", self.refusal(MAMMOGRAMS=f"{self.folder}/a.tsv,b.dcm"))
+        self.assertIn(f"MAMMOGRAMS: '{self.folder}/a.tsv' is not CC.dcm,MLO.dcm", self.refusal(MAMMOGRAMS=f"{self.folder}/a.tsv"))
         self.assertEqual(self.refusal(CHEST_WALL="runs/made-later.vtp"), "")
         self.assertIn("FORWARD: '/no/such' is no program that can be run", self.refusal(FORWARD="/no/such"))
         self.assertEqual(self.refusal(FORWARD="/no/such", given=""), "", "that of a tree that is not built yet")

@@ -20,6 +20,7 @@ try:
     import jinja2  # noqa: F401
     from breast.page import facts, packed
     from breast.page.lines import line_at
+    from breast.page.patient import read_patient
     from breast.page.remarks import banners_of, remarks_of
     from breast.page.views_page import read_views, views_page
     without_jinja = ""
@@ -260,6 +261,48 @@ class WhatIsSaid(unittest.TestCase):
         self.assertIn("not a finding", remarks[0].words)
         self.assertEqual(remarks[1].said, ["labels: quality of wall 0.4 is low", "labels: quality of tissue 0.3 is low"])
         self.assertEqual(remarks[-1].words, "a <b>new</b> warning", "a warning without a row is shown as it is")
+
+    def test_the_patients_own_mammograms_are_registered_and_drawn_on(self):
+        """The images of the simulation itself as the patient's: what is drawn in them lies where it does in the simulated views."""
+        run = small_run.scratch("patient")
+        for view in ("cc", "mlo"):
+            small_run.tool(f"project-mammogram {self.run_folder}/{view}.vtkhdf x.vti --labels {self.run_folder}/labels.vtkhdf --pixel 0.5 "
+                           f"--dicom {view}.dcm", run)
+            for file in (f"{view}.vtkhdf", f"{view}.vti", f"{view}.json"):
+                shutil.copy(self.run_folder / file, run)
+        for file in ("lookup.h5", "mesh.json"):
+            shutil.copy(self.run_folder / file, run)
+        small_run.tool("cc2mlo cc.vtkhdf mlo.vtkhdf patient.vtp --grid 1 --cc-image cc.dcm --mlo-image mlo.dcm --cc-hung patient-cc.png "
+                       "--mlo-hung patient-mlo.png --report patient.json", run)
+        views = read_views(run, None)
+        self.assertEqual(set(views.patients), {"CC", "MLO"})
+        for (image, state) in views.pairs:
+            patient = views.patients[image.view]
+            nipple = image.project(state.landmark_position("nipple")[None])
+            np.testing.assert_allclose(patient.put(nipple)[0], nipple[0] + 0.5 * image.pixel_mm, atol=1.5)
+            self.assertLess(patient.residual_mm, 1.5)
+        page = views_page(run, dataclasses.replace(views, pairs=self.moved_tumour()[0].pairs, body=self.moved_tumour()[0].body, origin="given"))
+        self.assertIn("In the patient's own mammograms", words_of(page))
+        for view in ("CC", "MLO"):
+            drawn = page.partition(f'id="picture-patient-{view}"')[2].partition("</figure>")[0]
+            self.assertTrue(all(mark in drawn for mark in ('class="outline"', 'class="line"', 'class="tumour"', 'data-mm="20"')))
+            self.assertEqual(number_of(page, f"fit_{view}"), [round(views.patients[view].residual_mm, 1)])
+        self.assertLess(len(re.findall(r"In the patient's own", words_of(self.page))), 1, "a run without them says nothing of them")
+
+    def test_a_right_breast_is_hung_the_other_way(self):
+        (run := small_run.scratch("right")).joinpath("patient-cc.png").write_bytes(b"png")
+        key = {"scale": 1, "rotation_deg": 90, "shift_mm": [5, 6], "deviation_mm": 1, "residual_mm": 2,
+               "hung": {"pixel_mm": 0.2, "corner_mm": [100, 200]}}
+        (run / "patient.json").write_text(json.dumps({"aligned": {"CC": key}}))
+        np.testing.assert_allclose(read_patient(run, "CC", "right").put([[10, 20]]), [[100 - (5 - 20), 200 - (6 + 10)]])
+        key["hung"]["corner_mm"] = [-1, -2]
+        (run / "patient.json").write_text(json.dumps({"aligned": {"CC": key}}))
+        np.testing.assert_allclose(read_patient(run, "CC", "left").put([[10, 20]]), [[5 - 20 + 1, 6 + 10 + 2]])
+        self.assertIsNone(read_patient(run, "MLO", "left"))
+        del key["hung"]
+        (run / "patient.json").write_text(json.dumps({"aligned": {"CC": key}}))
+        with self.assertRaisesRegex(BreastError, "does not say where the CC image lies"):
+            read_patient(run, "CC", "left")
 
     def test_every_advice_has_words_and_they_are_plain(self):
         """A kind of warning that has advice in the report has words on the page."""

@@ -23,7 +23,7 @@ from .settings_table import Setting, check_characters, check_choice, read_settin
 # A setting that is empty because a script's variable was must not get the results of the phantom, or the folder of all runs.
 _NEVER_EMPTY = {"MR": "name the scan, or leave MR out for the phantom PRESET", "CASE_FILE": "name the case file, or leave CASE_FILE out",
                 "CASE": "name the folder of the run, or leave CASE out", "RUNS": "name the folder of all runs, or leave RUNS out"}
-_FILES = ("CHEST_WALL", "LANDMARKS", "SUPINE", "LABELS_TRUTH")  # LANDMARKS may name two
+_FILES = ("CHEST_WALL", "LANDMARKS", "SUPINE", "LABELS_TRUTH", "MAMMOGRAMS")  # LANDMARKS may name two, MAMMOGRAMS names two
 
 
 def check_given(pipelines: Path, command_line: Mapping[str, str], environment: Mapping[str, str]) -> None:
@@ -126,6 +126,9 @@ def _check_files(request: CaseRequest, settings: Sequence[Setting]) -> None:
         for file in value.split(",") if name in _FILES and value else ():
             if file != "phantom" and not request.is_result(file) and not os.path.exists(file):
                 raise BreastError(f"{name}: '{file}' does not exist; check its name and folder")
+    mammograms = request.value("MAMMOGRAMS")
+    if mammograms and mammograms.count(",") != 1:
+        raise BreastError(f"MAMMOGRAMS: '{mammograms}' is not CC.dcm,MLO.dcm, the patient's two mammograms of this breast")
     if request.value("SUPINE") == "phantom" and not request.value("phantom"):
         raise BreastError(f"SUPINE: phantom is the supine scan of a phantom, but MR={request.value('MR')} is the scan of a patient; name "
                           "the supine scan of this patient")

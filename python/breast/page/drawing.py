@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..figures.mammogram import hung
+from ..figures.silhouette import contours
 from ..figures.slices import AXIAL, CORONAL, SAGITTAL
 from ..mammogram import Mammogram
 from ..state import State
@@ -19,10 +20,13 @@ from ..study.html import data_uri
 from ..volume import Volume
 from .facts import slice_of
 from .lines import MatchedLine
+from .patient import PatientImage
 
 BAR_MM = 20
 _AROUND_MM = 15  # of a slice about the breast
 _NEAR_MM = 6  # a landmark farther from a slice is not marked in it
+_BESIDE_MM = 10  # of the patient's image about the simulated outline
+_ENDS = {"CC": ("lateral", "medial"), "MLO": ("superior", "inferior"), "ML": ("superior", "inferior")}
 _GAMMA = 0.8  # as in figures/slices.py
 
 
@@ -31,7 +35,7 @@ class Picture:
     """What the template draws.
 
     Attributes:
-        name: for programs: CC, MLO, MR.
+        name: for programs: CC, MLO, MR, patient-CC, patient-MLO.
         size: width and height, mm.
         place: left and top edge, width and height of the image, mm.
         image: data URI.
@@ -40,6 +44,7 @@ class Picture:
         marks: (kind, x, y), kind nipple, tumour or artificial.
         line: points of the line, "x,y x,y", or "".
         band: path of the band, or "".
+        outlines: lines of the simulated outline in a patient's image.
         alt: what the picture shows, for those who cannot see it.
     """
 
@@ -54,6 +59,7 @@ class Picture:
     marks: list[tuple[str, float, float]] = field(default_factory=list)
     line: str = ""
     band: str = ""
+    outlines: list[str] = field(default_factory=list)
 
 
 def view_picture(image: Mammogram, state: State, size: tuple[float, float], line: MatchedLine | None) -> Picture:
@@ -70,16 +76,42 @@ def view_picture(image: Mammogram, state: State, size: tuple[float, float], line
         at = np.asarray(uv, float) + 0.5 * image.pixel_mm
         return np.array([left, top]) + (at if image.side == "left" else np.array([width, height]) - at)
     side = image.side[0].upper()
-    upper, lower = ("lateral", "medial") if image.view == "CC" else ("superior", "inferior")
+    upper, lower = _ENDS[image.view]
     picture = Picture(image.view, size, (left, top, width, height), _png(hung(image)), f"{side} {image.view}", ("", "", upper, lower),
                       image.side == "left", f"Simulated {image.view} mammogram of the {image.side} breast")
     _mark(picture, state, lambda name: put(image.project(state.landmark_position(name)[None])[0]))
     if line is not None:
-        picture.line = _points(put(line.points))
-        if line.to_either_side_mm > 0:
-            picture.band = " ".join(f"M{_points(put(piece))}Z" for piece in line.band())
-        picture.alt += f"; a line of {line.length_mm:.0f} mm on which the tumour lies, as seen in the other view"
+        _draw_line(picture, line, put)
     return picture
+
+
+def patient_picture(image: Mammogram, state: State, patient: PatientImage, line: MatchedLine | None) -> Picture:
+    """The patient's own mammogram about the breast, with the outline of the simulated one, and in it what view_picture shows."""
+    from PIL import Image
+
+    outlines = [patient.put(outline) for outline in _outlines(image)]
+    grey = np.asarray(Image.open(patient.picture).convert("L"), float) / 255
+    low, high = np.vstack(outlines).min(0) - _BESIDE_MM, np.vstack(outlines).max(0) + _BESIDE_MM
+    first = np.maximum(np.floor(low / patient.pixel_mm).astype(int), 0)
+    last = np.minimum(np.ceil(high / patient.pixel_mm).astype(int), grey.shape[::-1])
+    first[0], last[0] = (0, last[0]) if patient.left else (first[0], grey.shape[1])  # as far as the chest wall
+    grey, corner = grey[first[1] : last[1], first[0] : last[0]], patient.pixel_mm * first
+    width, height = patient.pixel_mm * np.array(grey.shape[::-1])
+    side = image.side[0].upper()
+    upper, lower = _ENDS[image.view]
+    picture = Picture(f"patient-{image.view}", (width, height), (0.0, 0.0, width, height), _png(grey), f"{side} {image.view}",
+                      ("", "", upper, lower), patient.left,
+                      f"The patient's own {image.view} mammogram of the {image.side} breast, with the outline of the simulated one")
+    picture.outlines = [_points(outline - corner) for outline in outlines]
+    _mark(picture, state, lambda name: patient.put(image.project(state.landmark_position(name)[None]))[0] - corner)
+    if line is not None:
+        _draw_line(picture, line, lambda uv: patient.put(uv) - corner)
+    return picture
+
+
+def _outlines(image: Mammogram) -> list[np.ndarray]:
+    """The border of the simulated breast, lines (n, 2) in (u, v), mm, without the edges of the image."""
+    return contours((image.images["thickness"] > 0).astype(float), 0.5, image.pixel_mm, np.zeros(2))
 
 
 def pair_size(images: tuple[Mammogram, ...]) -> tuple[float, float]:
@@ -129,6 +161,13 @@ def _mark(picture: Picture, state: State, put: Callable[[str], np.ndarray | None
         if at is not None and left <= at[0] <= left + width and top <= at[1] <= top + height:
             picture.marks.append((kinds[name], round(float(at[0]), 2), round(float(at[1]), 2)))
             picture.alt += f", with the {name.replace('_', ' ')} marked"
+
+
+def _draw_line(picture: Picture, line: MatchedLine, put: Callable[[np.ndarray], np.ndarray]) -> None:
+    picture.line = _points(put(line.points))
+    if line.to_either_side_mm > 0:
+        picture.band = " ".join(f"M{_points(put(piece))}Z" for piece in line.band())
+    picture.alt += f"; a line of {line.length_mm:.0f} mm on which the tumour lies, as seen in the other view"
 
 
 def _points(places: np.ndarray) -> str:

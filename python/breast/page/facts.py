@@ -11,6 +11,7 @@ from ..labels import Labels
 from ..mammogram import Mammogram
 from ..state import TISSUES, State
 from ..study.stage_report import StageReport
+from .patient import PatientImage
 
 _BEHIND_NIPPLE_MM = 10  # from the line straight back from the nipple
 _DENSITY_LIMITS = (4.5, 7.5, 15.5)  # % of the volume
@@ -107,6 +108,18 @@ def facts_of_tumour(state: State, images: list[tuple[Mammogram, State]], labels:
         number, count, plane = slice_of(scan, place)
         facts.append(Fact("slice", "MR slice", f"{plane} {number} of {count}", f"slice 1 is the {first_slice(scan)}"))
     return facts + [Fact(f"in_{image.view}", f"In {image.view}", in_view(image, compressed, name)) for image, compressed in images]
+
+
+def facts_of_patient(images: dict[str, PatientImage]) -> list[Fact]:
+    """How well the patient's own mammograms fit the simulated ones, by view."""
+    facts = []
+    for view, image in images.items():
+        facts.append(Fact(f"fit_{view}", f"Outline of {view}", f"{image.residual_mm:.1f} mm from the simulated one",
+                          "root mean square after registration by rotation, shift and scale"))
+        stated, simulated = image.thickness_mm
+        if stated is not None and simulated is not None:
+            facts.append(Fact(f"thickness_{view}", f"Thickness in {view}", f"{stated:.0f} mm", f"simulated: {simulated:.0f} mm"))
+    return facts
 
 
 def facts_of_breast(labels_report: StageReport, compressions: list[StageReport]) -> list[Fact]:

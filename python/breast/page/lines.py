@@ -2,7 +2,7 @@
 """Where a point of one view may lie in the other, between the points of a lookup."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -44,6 +44,10 @@ class MatchedLine:
         shift = SIDES_90 * self.deviation[:, None] * self.across
         low, high = self.points - shift, self.points + shift
         return [_turning(np.array([low[k], low[k + 1], high[k + 1], high[k]])) for k in range(len(low) - 1)]
+
+    def with_more(self, deviation: float) -> MatchedLine:
+        """The same line with one more, independent deviation across it, mm, where its own is known."""
+        return replace(self, deviation=np.where(self.deviation > 0, np.hypot(self.deviation, deviation), 0))
 
     def remark(self) -> str:
         """What limits the line, in words; "" if nothing does."""

@@ -28,7 +28,7 @@ def remarks_of(run: Path) -> list[Remark]:
     without a row as it is."""
     table = [(extended_pattern(row["pattern"], str(_WORDS)), int(row["weight"]), row["words"]) for row in read_table(_WORDS)]
     remarks: dict[str, Remark] = {}
-    for stage in CHAIN_STAGES:
+    for stage in (*CHAIN_STAGES, "patient"):
         for text in map(one_line, StageReport.read(run / f"{stage}.json").texts("warnings")):
             weight, said = next(((weight, said) for pattern, weight, said in table if pattern.search(text)), (_UNKNOWN, text))
             remarks.setdefault(said, Remark(weight, said)).said.append(f"{stage}: {text}")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from ..state import State
     from ..volume import Volume
     from .lines import MatchedLine
+    from .patient import PatientImage
 
 _TEMPLATES = Path(__file__).with_name("templates")
 _SCRIPTS = ("data", "lookup", "arc", "window", "view", "pins", "colours", "overlay", "marks", "slice", "body", "list", "readout",
@@ -45,6 +46,7 @@ class Views:
         scan: None if it is not given.
         shows_scan: whether voxels of the scan may be shown.
         origin: of the tumour: none, given or artificial.
+        patients: the patient's own mammograms by view.
     """
 
     pairs: list[tuple[Mammogram, State]]
@@ -54,6 +56,7 @@ class Views:
     scan: Volume | None
     shows_scan: bool
     origin: str
+    patients: dict[str, PatientImage] = field(default_factory=dict)
 
 
 def read_views(run: Path, scan: Path | None, shows_scan: bool = True) -> Views:
@@ -62,6 +65,7 @@ def read_views(run: Path, scan: Path | None, shows_scan: bool = True) -> Views:
     from ..loading import load_scan
     from ..mammogram import read_mammogram
     from ..state_file import read_state
+    from .patient import read_patient
 
     held = [view for view in VIEWS if not why_not_made([run / f"{view}.vtkhdf"])]
     pairs = [(read_mammogram(run / f"{view}.vti"), read_state(run / f"{view}.vtkhdf")) for view in held]
@@ -77,7 +81,9 @@ def read_views(run: Path, scan: Path | None, shows_scan: bool = True) -> Views:
     origin = tumour_origin(StageReport.read(run / "mesh.json"))
     if origin == "none" and any("tumour" in name for name in body.landmarks):  # a mesh without a report
         origin = "artificial" if "artificial_tumour" in body.landmarks else "given"
-    return Views(pairs, lookups, body, read_labels(labels) if labels.exists() else None, load_scan(scan) if scan else None, shows_scan, origin)
+    patients = {image.view: read_patient(run, image.view, image.side) for image, _ in pairs}
+    return Views(pairs, lookups, body, read_labels(labels) if labels.exists() else None, load_scan(scan) if scan else None, shows_scan, origin,
+                 {view: patient for view, patient in patients.items() if patient is not None})
 
 
 def _read_lookups(file: Path, states: list[State]) -> tuple[Lookup, Lookup]:
@@ -97,7 +103,7 @@ def views_page(run: Path, views: Views) -> str:
     from markupsafe import Markup
 
     from .drawing import BAR_MM
-    from .facts import facts_of_breast, facts_of_tumour
+    from .facts import facts_of_breast, facts_of_patient, facts_of_tumour
     from .packed import LARGEST_PAGE
     from .remarks import banners_of, remarks_of
 
@@ -107,13 +113,16 @@ def views_page(run: Path, views: Views) -> str:
     compressions = [StageReport.read(state.file.with_suffix(".json")) for _, state in views.pairs]
     breast = facts_of_breast(StageReport.read(run / "labels.json"), compressions)
     scripts = [Markup((_TEMPLATES / f"scripts/{name}.js").read_text(encoding="utf-8")) for name in _SCRIPTS]
+    patients = _pictures_of_patient(views, lines)
     widths = [picture.size[0] for picture in pictures]
+    pair = max(sum(widths[:2]), *widths, sum(picture.size[0] for picture in patients)) if widths else 1
     made = page("views", _TEMPLATES, title=_title(views), banners=banners_of(run), remarks=remarks_of(run),
                 answer_title=_answer_title(views), answer=_answer(views, lines), pictures=pictures, bar_mm=BAR_MM,
-                row_mm=f"{sum(widths):.1f}", pair_mm=f"{max(sum(widths[:2]), *widths, 1) if widths else 1:.1f}",
+                patients=patients,
+                row_mm=f"{max(sum(widths), pair):.1f}", pair_mm=f"{pair:.1f}",
                 tumour_words=_TUMOUR_WORDS[views.origin], tumour_kind="artificial" if views.origin == "artificial" else "tumour",
                 with_views=bool(views.pairs), with_lines=any(picture.line for picture in pictures), with_band=any(picture.band for picture in pictures),
-                tables=[("The tumour" if views.origin == "given" else "The artificial tumour", tumour), ("The breast", breast)],
+                tables=[("The tumour" if views.origin == "given" else "The artificial tumour", tumour), ("The breast", breast), ("The patient's mammograms", facts_of_patient(views.patients))],
                 data=_data(views), scripts=scripts)
     if len(made) > LARGEST_PAGE:
         raise BreastError(f"the page would have {len(made) // 1000000} MB, at most {LARGEST_PAGE // 1000000} allowed; use a larger "
@@ -145,6 +154,15 @@ def _pictures(views: Views, lines: list[MatchedLine | None]) -> list[Any]:
     if views.scan is not None and views.shows_scan:
         pictures.append(slice_picture(views.scan, views.body))
     return pictures
+
+
+def _pictures_of_patient(views: Views, lines: list[MatchedLine | None]) -> list[Any]:
+    """Both images have errors of their own when a place of one is looked for in the other."""
+    from .drawing import patient_picture
+
+    more = sum(patient.deviation_mm**2 for patient in views.patients.values()) ** 0.5
+    return [patient_picture(image, state, views.patients[image.view], line.with_more(more) if line else None)
+            for (image, state), line in zip(views.pairs, lines) if image.view in views.patients]
 
 
 def _answer_title(views: Views) -> str:
