@@ -21,7 +21,7 @@ name=$(basename "$0") words="$*" after=() positional=()
 while [ $# -gt 0 ]; do
   case "$1" in
     --report) report=$2; shift ;;
-    --points|--page|--table|--png) after+=("$2"); shift ;;
+    --points|--table|--png) after+=("$2"); shift ;;
     --truth) mkdir -p "$2"; for file in landmarks tumour-left tumour-right; do echo "$file" > "$2/$file.tsv"; done; shift ;;
     --materials) set=$2; shift ;;
     --*) shift ;;
@@ -48,6 +48,9 @@ chmod +x "$work/stub"
 for tool in phantom segment fit-hermite hexmesh backward forward compress project-mammogram cc2mlo match-lookup sensitivity probe export-slicer identify; do
   ln -s ../stub "$work/bin/$tool"
 done
+# The page of files that are none is what it was called with.
+printf '#!/usr/bin/env bash\ncase " $* " in *" page "*) echo "$*" ;; *) exec "%s/tabulate" "$@" ;; esac\n' "$bin" > "$work/bin/tabulate"
+chmod +x "$work/bin/tabulate"
 for tool in $(ls "$bin"); do [ -e "$work/bin/$tool" ] || ln -s "$bin/$tool" "$work/bin/$tool"; done
 export INSTALLED=$work/bin
 run=$work/runs/one
