@@ -198,6 +198,7 @@ void declare(Tool& tool, Choices& c) {
 void take_from_mammogram(Choices& c, const HexMesh& mesh, Run& run) {
   if (c.like.empty()) return;
   const LikeMammogram like = like_mammogram(c.like, view_named(c.view), c.angle);
+  for (const std::string& remark : like.remarks) run.remark(remark);
   Origin image{c.like};
   image.side = like.side;
   pairs_of("compress", run).check("REFERENCE", origin_of(c.reference, mesh), "--like", image);

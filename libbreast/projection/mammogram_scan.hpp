@@ -27,6 +27,10 @@ struct MammogramHeader {
   /// Patient directions of the image's rows (to the right) and columns (downwards), from letters
   /// such as A\R or P\FL; not normalised, zero when absent.
   Vec3 right{0, 0, 0}, down{0, 0, 0};
+  /// Whether the machine states that it mirrored the image (Field of View Horizontal Flip).
+  bool flipped = false;
+  /// What of the header is ignored, or was found elsewhere than usual; each begins with the file's name.
+  std::vector<std::string> remarks;
 };
 
 /// Pixel (0,0) is at the top left, brightness grows with attenuation.

@@ -13,6 +13,7 @@
 #include "fixtures/scratch_folder.hpp"
 #include "io/dicom/like_mammogram.hpp"
 #include "io/dicom/mammogram_header.hpp"
+#include "io/dicom/mammogram_view.hpp"
 #include "io/mammogram_dicom.hpp"
 #include "io/mammogram_file.hpp"
 #include "projection/display.hpp"
@@ -76,7 +77,7 @@ TEST_F(MammogramDicomFile, GeometryAndGreysReadBack) {
     EXPECT_DOUBLE_EQ(header.pixel_mm, 0.5);
     EXPECT_NEAR(*header.angle_deg, image.pose.angle_deg, 1e-9);
     EXPECT_NEAR(*header.thickness_mm, mesh.contact->thickness_mm, 1e-6);
-    EXPECT_NEAR(*header.force_N, mesh.contact->plates.front().force_N, 1e-6);
+    EXPECT_FALSE(header.force_N);  // 0 N, which no plate presses with
     EXPECT_EQ(header.magnification, 1);
     // Axes as a radiologist hangs the image.
     const double way = image.side == Side::left ? 1 : -1;
@@ -175,6 +176,41 @@ TEST_F(MammogramDicomFile, AnglesAreFoldedToThoseOfTheView) {
   EXPECT_THROW(angle("mlo", 180), Error);
   EXPECT_THROW(angle("cc", 90), Error);
   EXPECT_EQ(like_mammogram(file("turned.dcm"), View::cc, 5.0).angle_deg, 5);  // the user's
+}
+
+TEST_F(MammogramDicomFile, ImpossibleValuesAreIgnoredWithARemark) {
+  const auto like = [&](const DatasetBuilder& more) {
+    write_text(file("odd.dcm"), fixtures::with_elements(read_text(file("mlo.dcm")), more));
+    return like_mammogram(file("odd.dcm"), View::mlo);
+  };
+  DatasetBuilder by_force;
+  by_force.number(0x001811a0, 0).number(0x001811a2, 90);
+  const LikeMammogram found = like(by_force);
+  EXPECT_FALSE(found.thickness_mm);
+  EXPECT_EQ(found.force_N, 90);
+  ASSERT_EQ(found.remarks.size(), 1u);
+  EXPECT_NE(found.remarks[0].find("body part thickness 0"), std::string::npos) << found.remarks[0];
+  DatasetBuilder neither;
+  neither.number(0x001811a0, 0).number(0x001811a2, 1100);
+  EXPECT_THROW(like(neither), Error);
+}
+
+TEST(MammogramView, IsFoundInFreeText) {
+  const auto view = [](const char* text) {
+    const auto found = view_in_text(text);
+    return found ? view_name(*found) : "";
+  };
+  for (const char* text : {"L CC", "RCC", "cc", "R-CC 2D", "Cranio-caudal", "LCCID"})
+    EXPECT_EQ(view(text), "CC") << text;
+  for (const char* text : {"LMLO", "R MLO", "mediolateral oblique", "MLO_L"})
+    EXPECT_EQ(view(text), "MLO") << text;
+  for (const char* text : {"LML", "ML", "medio-lateral"}) EXPECT_EQ(view(text), "ML") << text;
+  for (const char* text :
+       {"", "XCCL", "LM", "CC and MLO", "accession", "cranio-caudal exaggerated"})
+    EXPECT_EQ(view(text), "") << text;
+  EXPECT_EQ(side_in_text("RMLO"), Side::right);
+  EXPECT_EQ(side_in_text("left breast, CC"), Side::left);
+  EXPECT_FALSE(side_in_text("L and R"));
 }
 
 TEST_F(MammogramDicomFile, ATissueFractionImageHasNoDetectorSignal) {

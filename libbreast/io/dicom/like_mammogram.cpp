@@ -16,9 +16,10 @@ LikeMammogram like_mammogram(const std::filesystem::path& file, View view,
                       view_name(view));
   }
   if (!header.thickness_mm && !header.force_N) {
-    throw input_error(file.string(),
-                      ": states neither the thickness nor the force of the compression; give "
-                      "--thickness or --force");
+    throw input_error(
+        file.string(),
+        ": states neither a possible thickness nor a possible force of the compression; give "
+        "--thickness or --force");
   }
   constexpr double farthest_deg = 30;
   if (!angle_deg && header.angle_deg &&
@@ -28,7 +29,7 @@ LikeMammogram like_mammogram(const std::filesystem::path& file, View view,
                       "; give --angle");
   }
   return {header.side, angle_deg ? angle_deg : header.angle_deg, header.thickness_mm,
-          header.force_N};
+          header.force_N, header.remarks};
 }
 
 }  // namespace breast

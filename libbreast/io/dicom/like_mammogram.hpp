@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/types.hpp"
 #include "mesh/view.hpp"
@@ -15,6 +17,7 @@ namespace breast {
 struct LikeMammogram {
   Side side = Side::left;
   std::optional<double> angle_deg, thickness_mm, force_N;
+  std::vector<std::string> remarks;  ///< of the header
 };
 /// Throws Error (input) when the mammogram is of another view, when it states
 /// neither thickness nor force, and, unless another `angle_deg` is chosen, when its angle is not one of
