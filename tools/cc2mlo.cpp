@@ -166,6 +166,7 @@ void run_match(const MatchChoices& choices, Run& run) {
   const PatientViews* patient = views ? &*views : nullptr;
   if (patient != nullptr) {
     patient->report(run.report());
+    for (const std::string& remark : patient->remarks()) run.remark(remark);
     for (const std::string& doubt : patient->doubts()) run.warn(doubt);
   }
   Derivatives derivatives;

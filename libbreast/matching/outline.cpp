@@ -22,6 +22,7 @@ constexpr std::array<std::array<int, 2>, 4> neighbours{{{1, 0}, {-1, 0}, {0, 1},
 // The image at working resolution and what its pixels are.
 struct Raster {
   int width = 0, height = 0, block = 1;
+  int left = 0, top = 0;  // first pixel of the scan
   std::vector<float> grey;
   std::vector<Part> part;
 
@@ -30,21 +31,25 @@ struct Raster {
     return std::size_t(y) * std::size_t(width) + std::size_t(x);
   }
   /// Centre of a working pixel in pixels of the scan.
-  Vec2 pixel(const Vec2& at) const { return block * at + Vec2::Constant(0.5 * (block - 1)); }
+  Vec2 pixel(const Vec2& at) const {
+    return Vec2(left, top) + block * at + Vec2::Constant(0.5 * (block - 1));
+  }
 };
 
-Raster averaged(const MammogramScan& scan) {
+Raster averaged(const MammogramScan& scan, const ImageField& field) {
   Raster raster;
+  raster.left = field.left;
+  raster.top = field.top;
   raster.block = std::max(1, int(std::lround(working_pixel / scan.header.pixel_mm)));
-  raster.width = scan.header.columns / raster.block;
-  raster.height = scan.header.rows / raster.block;
+  raster.width = (field.right - field.left + 1) / raster.block;
+  raster.height = (field.bottom - field.top + 1) / raster.block;
   raster.grey.resize(std::size_t(raster.width) * std::size_t(raster.height));
   for (int y = 0; y < raster.height; ++y) {
     for (int x = 0; x < raster.width; ++x) {
       double sum = 0;
       for (int j = 0; j < raster.block; ++j) {
         for (int i = 0; i < raster.block; ++i) {
-          sum += scan.at(x * raster.block + i, y * raster.block + j);
+          sum += scan.at(field.left + x * raster.block + i, field.top + y * raster.block + j);
         }
       }
       raster.grey[raster.offset(x, y)] = float(sum / (raster.block * raster.block));
@@ -141,7 +146,7 @@ Vec2 outward(const Raster& raster, int x, int y) {
 
 std::vector<OutlinePoint> image_outline(const MammogramScan& scan, const ImageAxes& axes,
                                         const std::string& where) {
-  Raster raster = averaged(scan);
+  Raster raster = averaged(scan, axes.field());
   if (raster.width < 20 || raster.height < 20) {
     throw input_error(where, ": ", scan.header.columns, " x ", scan.header.rows,
                       " pixels: too small for a mammogram");

@@ -20,7 +20,7 @@ struct OutlinePoint {
 /// Border between the breast and the air in front of it, in mm along the image axes, with points
 /// about 0.3 mm apart. Air is the region connected to the anterior border that is not brighter than
 /// its noise plus 1 % of the breast's grey value; letters and markers in the air are ignored, and
-/// the borders of the image are not part of the outline. Throws Error (input) beginning with
+/// the borders of the axes' field are not part of the outline. Throws Error (input) beginning with
 /// `where` if there is no breast or no air.
 std::vector<OutlinePoint> image_outline(const MammogramScan& scan, const ImageAxes& axes,
                                         const std::string& where);

@@ -44,14 +44,19 @@ void draw_band(ColourPicture& picture, const AlignedView& view, const MatchResul
   }
 }
 
+std::vector<std::string> both(std::vector<std::string> first, std::vector<std::string> second) {
+  for (std::string& text : second) first.push_back(std::move(text));
+  return first;
+}
+
 constexpr Colour yellow{255, 214, 60}, cyan{70, 205, 255}, magenta{255, 80, 200},
     white{255, 255, 255};
 
 }  // namespace
 
 PatientViews::PatientViews(PatientImage from, PatientImage to, const Matcher& matcher)
-    : from_(std::move(from.scan), matcher, MatchEnd::from, from.nipple, from.where),
-      to_(std::move(to.scan), matcher, MatchEnd::to, to.nipple, to.where) {}
+    : from_(std::move(from.scan), SimulatedView(matcher, MatchEnd::from), from.nipple, from.where),
+      to_(std::move(to.scan), SimulatedView(matcher, MatchEnd::to), to.nipple, to.where) {}
 
 std::vector<Prior> PatientViews::with_alignment(std::vector<Prior> priors) const {
   const char* source = "outline's residual and pose, this image";
@@ -96,10 +101,12 @@ void PatientViews::report(Report& report) const {
   to_.report(report);
 }
 
+std::vector<std::string> PatientViews::remarks() const {
+  return both(from_.remarks(), to_.remarks());
+}
+
 std::vector<std::string> PatientViews::doubts() const {
-  std::vector<std::string> all = from_.doubts();
-  for (std::string& doubt : to_.doubts()) all.push_back(std::move(doubt));
-  return all;
+  return both(from_.doubts(), to_.doubts());
 }
 
 Table curve_points_table(const Matcher& matcher, const std::vector<MatchResult>& results,

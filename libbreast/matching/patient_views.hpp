@@ -33,6 +33,7 @@ class PatientViews {
   /// every query.
   ColourPicture picture(const Matcher& matcher, const std::vector<MatchResult>& results) const;
   void report(Report& report) const;
+  std::vector<std::string> remarks() const;
   std::vector<std::string> doubts() const;
 
  private:

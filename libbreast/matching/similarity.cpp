@@ -24,6 +24,8 @@ constexpr double correlation = 30;
 constexpr double finest = 0.05;      // smallest standard deviation of an outline, mm
 constexpr double border_margin = 1;  // mm: outlines end at the image's border
 constexpr int most_iterations = 200;
+// Another reading of the image is better above this residual, and below this part of it.
+constexpr double least_mm = 1, part = 0.5;
 
 Eigen::Matrix2d turn(double rotation) {
   Eigen::Matrix2d r;
@@ -88,7 +90,8 @@ class Fit {
     real_anterior_ = most_anterior(data.real, at);
     const Vec2 from = data.nipple ? data.nipple->first : most_anterior(data.simulated, same),
                to = data.nipple ? data.nipple->second : real_anterior_;
-    pose_.place = pose_.pivot + to - from;
+    pose_.scale = data.scale;
+    pose_.place = to - data.scale * (from - pose_.pivot);
   }
 
   // One Gauss-Newton step; its length in mm.
@@ -186,7 +189,7 @@ class Fit {
     normal.add(pose_.slope(edge).row(0).transpose(), edge.x() - axes_.posterior_border(),
                edge_place);
     normal.add(Eigen::Vector4d(0, 0, 1, 0), pose_.rotation, edge_direction);
-    normal.add(Eigen::Vector4d(0, 0, 0, 1), std::log(pose_.scale), log_scale);
+    normal.add(Eigen::Vector4d(0, 0, 0, 1), std::log(pose_.scale / data_.scale), log_scale);
     return normal;
   }
 
@@ -205,6 +208,10 @@ Vec2 Similarity::apply(const Vec2& uv) const {
 
 Vec2 Similarity::invert(const Vec2& mm) const {
   return turn(-rotation_deg * degree) * (mm - shift) / scale;
+}
+
+bool fits_better(double residual_mm, double than_mm) {
+  return than_mm > least_mm && residual_mm < part * than_mm;
 }
 
 double Alignment::deviation_mm() const {
@@ -237,7 +244,6 @@ Alignment align_outlines(const AlignmentData& data, const ImageAxes& axes,
 
 void check_upright(const AlignmentData& data, const ImageAxes& axes, const Alignment& found,
                    const std::string& where) {
-  constexpr double least_mm = 1, part = 0.5;
   if (!(found.residual_mm > least_mm)) return;
   const auto reverse = [](Vec2& uv) { uv.y() *= -1; };
   AlignmentData reversed = data;
@@ -252,10 +258,31 @@ void check_upright(const AlignmentData& data, const ImageAxes& axes, const Align
   } catch (const Error&) {
     return;  // it does not fit at all
   }
-  if (!(residual < part * found.residual_mm)) return;
+  if (!fits_better(residual, found.residual_mm)) return;
   throw input_error(where, ": fits upside down (", residual,
                     " mm) better than as its patient orientation says (", found.residual_mm,
                     " mm): its rows were reversed after the header was written");
+}
+
+void check_scale(const AlignmentData& data, const ImageAxes& axes, const Alignment& found,
+                 const std::string& where) {
+  if (!(found.residual_mm > least_mm)) return;
+  for (const double scale : {1.5, 1.8, 0.65, 0.55}) {  // factors of magnification stands
+    AlignmentData scaled = data;
+    scaled.scale = scale;
+    Alignment other;
+    try {
+      other = align_outlines(scaled, axes, where);
+    } catch (const Error&) {
+      continue;  // it does not fit at all
+    }
+    if (!fits_better(other.residual_mm, found.residual_mm)) continue;
+    throw input_error(where, ": fits ", other.map.scale, " times as large (", other.residual_mm,
+                      " mm) better than with the pixels that its header states (",
+                      found.residual_mm,
+                      " mm): a magnified view that does not state its factor, or a spacing that "
+                      "is already divided by it");
+  }
 }
 
 }  // namespace breast

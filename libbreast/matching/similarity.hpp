@@ -26,6 +26,7 @@ struct AlignmentData {
   double spacing = 0.4;         ///< mm, mean distance of its points
   std::vector<OutlinePoint> real;
   double plate_edge_u = 0;  ///< chest-wall edge of the simulated plates
+  double scale = 1;         ///< expected
   /// The nipple in both images; if absent, the most anterior part of the outlines is used.
   std::optional<std::pair<Vec2, Vec2>> nipple;
 };
@@ -47,16 +48,24 @@ struct Alignment {
 /// Least squares over the distances of the simulated outline from the real one (Huber beyond twice
 /// their spread, which is estimated at the same time), the nipple (2 mm if marked; 5 mm for the
 /// most anterior part otherwise), the chest-wall edge (parallel within 3°, position within 10 mm)
-/// and the scale (within 5 %), by Gauss–Newton with new nearest points in every step. Throws Error
+/// and the scale (within 5 % of the expected one), by Gauss–Newton with new nearest points in every step. Throws Error
 /// (input) beginning with `where` if less than 40 % of the simulated outline lies within the image
 /// or the fit does not converge.
 Alignment align_outlines(const AlignmentData& data, const ImageAxes& axes,
                          const std::string& where);
 
+/// Whether one residual is clearly better than another: this is above 1 mm, and that less than half of it.
+bool fits_better(double residual_mm, double than_mm);
+
 /// Throws Error (input) beginning with `where` if the image fits clearly better with its rows in reverse
-/// order than as `found`: above 1 mm, and less than half of it reversed. Of a symmetric breast the
-/// outline does not tell.
+/// order than as `found`. Of a symmetric breast the outline does not tell.
 void check_upright(const AlignmentData& data, const ImageAxes& axes, const Alignment& found,
                    const std::string& where);
+
+/// Throws Error (input) beginning with `where` if the image fits clearly better when its pixels are half to
+/// twice as large as the header states: a magnification that is not stated, or that
+/// the pixel spacing already contains.
+void check_scale(const AlignmentData& data, const ImageAxes& axes, const Alignment& found,
+                 const std::string& where);
 
 }  // namespace breast

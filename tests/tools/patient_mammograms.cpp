@@ -11,6 +11,7 @@
 #include "core/table.hpp"
 #include "fixtures/chain_files.hpp"
 #include "fixtures/dicom_elements.hpp"
+#include "fixtures/moved_mammogram.hpp"
 #include "fixtures/run_tool.hpp"
 #include "fixtures/scratch_folder.hpp"
 #include "io/derivative_file.hpp"
@@ -23,40 +24,6 @@ using namespace breast;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// A mammogram seen through a similarity: (u,v) of `image` lands at map(u,v) of the new one, whose
-/// origin is its first pixel. The posterior few millimetres fall out of the new image.
-Mammogram moved(const Mammogram& image, const Similarity& map, double pixel, int width,
-                int height) {
-  Mammogram out = image;
-  out.pixel = pixel;
-  out.width = width;
-  out.height = height;
-  const std::size_t n = std::size_t(width) * std::size_t(height);
-  out.path.assign(n, 0);
-  out.thickness.assign(n, 0);
-  out.fibroglandular.assign(n, 0);
-  out.through_back.assign(n, 0);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const Vec2 at = map.invert(pixel * Vec2(x, y)) / image.pixel;
-      const int i = int(std::floor(at.x())), j = int(std::floor(at.y()));
-      if (i < 0 || j < 0 || i + 1 >= image.width || j + 1 >= image.height) continue;
-      const Vec2 f = at - Vec2(i, j);
-      const auto sample = [&](const std::vector<float>& values) {
-        const auto value = [&](int a, int b) {
-          return values[std::size_t(b) * std::size_t(image.width) + std::size_t(a)];
-        };
-        return float((1 - f.y()) * ((1 - f.x()) * value(i, j) + f.x() * value(i + 1, j)) +
-                     f.y() * ((1 - f.x()) * value(i, j + 1) + f.x() * value(i + 1, j + 1)));
-      };
-      const std::size_t to = std::size_t(y) * std::size_t(width) + std::size_t(x);
-      out.path[to] = sample(image.path);
-      out.thickness[to] = sample(image.thickness);
-    }
-  }
-  return out;
-}
 
 class PatientMammograms : public testing::Test {
  protected:
@@ -75,8 +42,8 @@ class PatientMammograms : public testing::Test {
                                     "labels.vtkhdf", "--energy", "W/Rh:28"});
       ASSERT_EQ(result.exit_code, 0) << result.err;
       const Mammogram image = read_mammogram(file(view + ".vti"));
-      const Mammogram real =
-          moved(image, map(view), pixel(view), int(145 / pixel(view)), int(190 / pixel(view)));
+      const Mammogram real = fixtures::moved(image, map(view), pixel(view), int(145 / pixel(view)),
+                                             int(190 / pixel(view)));
       const HexMesh mesh = read_mesh(file(view + ".vtkhdf"));
       write_mammogram_dicom(file(view + ".dcm"), real, {true, mesh.contact->thickness_mm, 90, {}});
       Mammogram magnified = real;
