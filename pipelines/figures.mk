@@ -17,6 +17,30 @@ $(call pictures,$(of_run)) &: $(figure_files) $(RUN)/labels.vtkhdf $(RENDER)
 	@rm -f $(call pictures,$(if $(CURVE),,$(of_curve)))
 
 files_of = $(addprefix $(RUN)/,$1)
+
+# How the breast moves: STATES equilibria while gravity turns from prone to supine, and while the plates close, each an animated
+# picture. The last equilibrium of each is that of the chain, which stays as it is.
+of_states := $(addprefix $(RUN)/states/,supine.vtkhdf cc.vtkhdf mlo.vtkhdf)
+supine-states_settings = $(supine_settings) --states $(STATES)
+cc-states_settings = $(cc_settings) --states $(STATES)
+mlo-states_settings = $(mlo_settings) --states $(STATES)
+$(RUN)/states/supine.vtkhdf: $(RUN)/reference.vtkhdf $(FORWARD) $(MADE_MATERIALS) $(call changed,supine-states)
+	@mkdir -p $(@D)
+	$(call stage,supine-states) $(FORWARD) $< $@ --posture supine $(supine_options) --states $(STATES) $(common)
+$(RUN)/states/cc.vtkhdf: $(RUN)/reference.vtkhdf $(RUN)/cc.vtkhdf $(COMPRESS) $(MADE_MATERIALS) $(call changed,cc-states)
+	@mkdir -p $(@D)
+	$(call of_pressed,cc-states) $(COMPRESS) $< $@ --view CC $(cc_options) --states $(STATES) $(common)
+$(RUN)/states/mlo.vtkhdf: $(RUN)/reference.vtkhdf $(RUN)/mlo.vtkhdf $(COMPRESS) $(MADE_MATERIALS) $(call changed,mlo-states)
+	@mkdir -p $(@D)
+	$(call of_pressed,mlo-states) $(COMPRESS) $< $@ --view MLO $(mlo_options) --states $(STATES) $(common)
+$(F)/%-states.png: $(RUN)/states/%.vtkhdf $(RENDER)
+	@mkdir -p $(@D)
+	@[ ! -e $< ] || $(RENDER) $(basename $<)-states/state_*.vtkhdf --figure states -o $@
+.SECONDARY: $(of_states)
+states: $(call pictures,supine-states cc-states mlo-states)
+	$(gripped)
+.PHONY: states
+
 fig4: $(call files_of,points.vtp geometry.vtkhdf mesh.vtkhdf labels.vtkhdf)
 	@$(call draw,slices $(of_points),$(filter-out %/labels.vtkhdf,$^),$(on_scan))
 fig5: $(call files_of,mesh.vtkhdf cc.vtkhdf mlo.vtkhdf)

@@ -69,6 +69,8 @@ REDUCTION ?= $(if $(slides)$(FORCE)$(THICKNESS)$(PRESSURE),,50)
 # are like. As printed, elements on the edge of the cuboid fold early (docs/validation/contact.md).
 AT_LEAST ?= $(if $(PAPER),30,$(if $(slides),,40))
 POINTS ?= 4
+# Equilibria of each way that `states` shows.
+STATES ?= 13
 
 # ---- programs of the stages and their further options ------------------------------------------------------
 # As printed in the paper: cuboid, skin as a layer of elements, plain invariants, free cut, no gravity in compression.

@@ -46,7 +46,7 @@ void declare(Tool& tool, Choices& c) {
   declare_gravity(tool, c.gravity, "direction of gravity");
   declare_mechanics(tool, c.mechanics, "REFERENCE");
   declare_estimate(tool, c.estimate);
-  declare_states(tool, c.states, "while gravity turns from --states-from to its direction");
+  declare_states(tool, c.states, "while gravity turns to its direction");
   std::vector<std::string> postures;
   for (const Posture posture : {Posture::prone, Posture::supine, Posture::upright})
     postures.emplace_back(posture_name(posture));

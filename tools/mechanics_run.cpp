@@ -33,13 +33,14 @@ std::optional<StateSeries> StatesChoice::series(const std::filesystem::path& out
 }
 
 void declare_states(Tool& tool, StatesChoice& choice, const std::string& what) {
-  tool.integer(choice.number, "--states", "N",
-               "also write N equilibria " + what +
-                   ", the last of which is the result: a mesh each in the folder "
-                   "OUTPUT-states, with states.tsv (status, residual, iterations, places of "
-                   "the landmarks) and states.vtkhdf.series, which ParaView opens as an "
-                   "animation",
-               2, 200);
+  tool.integer(
+      choice.number, "--states", "N",
+      "also write N equilibria " + what +
+          ", the last of which is the result, each as a mesh in a folder beside the output, "
+          "with a table of status, residual, iterations and places of the landmarks "
+          "(states.tsv) and a series that ParaView opens as an animation "
+          "(states.vtkhdf.series)",
+      2, 200);
 }
 
 void MechanicsRun::put(const Equilibrium& found, HexMesh& mesh) const {

@@ -74,6 +74,7 @@ REDUCTION compress --reduction
 PRESSURE compress --pressure
 AT_LEAST compress --at-least
 ELEMENTS hexmesh --elements
+STATES forward --states
 SERIES segment --series
 ranges
 # The phantom says which of its bodies slide, and make plans for them.

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The pictures of the pipeline, similar to Figs 4 to 7 of Pathmanathan et al. 2008: one module each.
 
-A module has draw(inputs: Inputs) -> Picture, which raises BreastError for input that the figure needs and was not given. It is
+A module has draw(inputs: Inputs) -> Picture (or Animation), which raises BreastError for input that the figure needs and was not given. It is
 imported when its figure is drawn.
 """
 from __future__ import annotations
@@ -11,6 +11,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from .animation import Animation
     from .inputs import Inputs
     from .layout import Picture
 
@@ -36,6 +37,8 @@ FIGURES = {
                        "deformed .vtkhdf and the .vtp of identify --seen)", of_points=True),
     "compression": Figure("the shapes between the plates (from one or two compressed .vtkhdf)", True),
     "pressure": Figure("the contact pressure of paddle and detector on the skin (from one or two compressed .vtkhdf)", True),
+    "states": Figure("the equilibria on the way to a shape one after the other, with the ways of tumour and nipple, as an animated PNG "
+                     "(from the .vtkhdf of a folder NAME-states of forward or compress, in their order)", True),
     "force-thickness": Figure("the force of both plates during the compression (from a compressed .vtkhdf)"),
     "mammogram": Figure("the mammograms with axes in mm (from one or two .vti), optionally with curve, arc and tumour (from a curve "
                         ".vtp)"),
@@ -49,6 +52,6 @@ FIGURES = {
 }
 
 
-def draw(name: str, inputs: Inputs) -> Picture:
+def draw(name: str, inputs: Inputs) -> Picture | Animation:
     """A figure by its name in FIGURES. One that shows surfaces needs a display."""
     return import_module(f".{name.replace('-', '_')}", __name__).draw(inputs)

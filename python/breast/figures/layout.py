@@ -34,6 +34,13 @@ def points(pixels: float) -> float:
     return pixels * 72 / DPI
 
 
+def mark() -> PngInfo:
+    """What says of a PNG that it is a file of libbreast (output.written_by_us)."""
+    made = PngInfo()
+    made.add_text("Software", "libbreast")
+    return made
+
+
 class Picture:
     """A page of `width` x `height` pixels, which panels share."""
 
@@ -48,16 +55,19 @@ class Picture:
         return Panel(self, low, high - low)
 
     def png(self) -> bytes:
-        """The page as PNG, marked as a file of libbreast (output.written_by_us).
+        """The page as PNG, marked as a file of libbreast."""
+        stream = io.BytesIO()
+        Image.fromarray(self.pixels()).save(stream, "png", compress_level=7, pnginfo=mark())
+        return stream.getvalue()
+
+    def pixels(self) -> np.ndarray:
+        """The page, RGB (height, width, 3), 0 to 255.
 
         Values are rounded to every third of 256: no difference is seen, and a noisy scan takes two thirds of the bytes.
         """
         self._canvas.draw()
         rounded = np.minimum((np.asarray(self._canvas.buffer_rgba())[..., :3].astype(np.uint16) + 1) // 3 * 3, 255)
-        mark, stream = PngInfo(), io.BytesIO()
-        mark.add_text("Software", "libbreast")
-        Image.fromarray(rounded.astype(np.uint8)).save(stream, "png", compress_level=7, pnginfo=mark)
-        return stream.getvalue()
+        return rounded.astype(np.uint8)
 
 
 class Panel:
@@ -110,8 +120,12 @@ class Panel:
 
     def scene(self, scene: Scene, camera: Camera, mm_per_pixel: float | None = None, right: float = 0) -> None:
         """Shows a scene, with scale bar and compass. Panels of one scale ask `needed` first."""
+        self.still(scene, camera, camera.flat(scene.shown()), mm_per_pixel, right)
+
+    def still(self, scene: Scene, camera: Camera, flat: np.ndarray, mm_per_pixel: float | None = None, right: float = 0) -> None:
+        """The same in the frame that the places `flat` (n, 2), mm, need: those of several scenes that follow one another."""
         self.camera = camera
-        self.fit(camera.flat(scene.shown()), mm_per_pixel, right=right)
+        self.fit(flat, mm_per_pixel, right=right)
         width, height = (int(n) for n in self.size)
         image = scene.image(camera, self.centre, self.mm_per_pixel, width, height)
         self.image(image, self.centre - 0.5 * self.size * self.mm_per_pixel, self.mm_per_pixel, "nearest")
