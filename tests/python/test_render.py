@@ -19,6 +19,7 @@ from breast.output import written_by_us
 try:
     import vtkmodules  # noqa: F401
     from matplotlib.image import imread
+    from PIL import Image
     from breast.figures.of_run import PICTURES
 except ImportError as error:
     raise unittest.SkipTest(f"figures need python3-matplotlib and python3-vtk9 ({error})") from None
@@ -99,6 +100,26 @@ class Render(unittest.TestCase):
                                                 "chain\t3\t4\t2\nbackward\t0\t2\t\n\r\n")
         self.drawn("budget.tsv --figure budget -o budget.png")
         self.refused("budget.tsv --figure cost -o no.png", "budget.tsv: has no column", "it has: replaced")
+
+    def test_states_follow_one_another_in_a_picture_that_moves(self):
+        small_run.tool("forward reference.vtkhdf turn.vtkhdf --states 3", self.folder)
+        small_run.tool("compress reference.vtkhdf closing.vtkhdf --view CC --reduction 30 --at-least 20 --states 2", self.folder)
+        for name, count in (("turn", 3), ("closing", 2)):
+            files = sorted(f"{name}-states/{file.name}" for file in (self.folder / f"{name}-states").glob("state_*.vtkhdf"))
+            self.drawn(f"{' '.join(files)} --figure states -o {name}.png")
+            self.assertTrue(written_by_us(self.folder / f"{name}.png"))
+            self.assertLess((self.folder / f"{name}.png").stat().st_size, 3e6 * count / 13)
+            with Image.open(self.folder / f"{name}.png") as picture:
+                self.assertEqual((picture.n_frames, picture.info["loop"]), (count, 0))
+                frames = []
+                for k in range(count):
+                    picture.seek(k)
+                    frames.append(np.asarray(picture.convert("RGB")) / 255)
+            for a, b in zip(frames, frames[1:]):
+                self.assertGreater(np.count_nonzero(np.abs(a - b).max(-1) > 0.1), 3000, "the body moves")
+            for frame in frames:
+                self.assertGreater(np.count_nonzero(is_tumour(*np.moveaxis(frame, -1, 0))), 100, "the tumour is seen")
+        self.refused("supine.vtkhdf --figure states -o no.png", "figure states needs the .vtkhdf of a folder NAME-states")
 
     def test_without_a_tumour_nothing_is_yellow(self):
         small_run.tool("hexmesh geometry.vtkhdf labels.vtkhdf none.vtkhdf --elements 6 --tumour none", self.folder)

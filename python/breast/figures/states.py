@@ -73,14 +73,16 @@ def _add_trail(panel: Panel, states: list[State], k: int, name: str, colour: Col
 
 
 def _add_gravity(panel: Panel, state: State) -> None:
-    """An arrow as long as the part of gravity that lies in the picture's plane."""
+    """An arrow as long as the part of gravity that lies in the picture's plane; where hardly any does, words say where it points."""
     size = np.linalg.norm(state.gravity)
     if state.contact or not size > 0:
         return
     along = panel.camera.flat(state.gravity[None])[0] / size
     start, tip = (panel.centre + (_ARROW_AT + half * _ARROW * along - 0.5 * panel.size) * panel.mm_per_pixel for half in (-0.5, 0.5))
     panel.arrow(start, tip)
-    panel.text(_ARROW_AT + [0.5 * _ARROW + 8, 0], "gravity", SMALL, INK)
+    away = float(panel.camera.axes()[2] @ state.gravity) / size
+    words = "gravity" if abs(away) < 0.9 else f"gravity {'into' if away > 0 else 'out of'} the picture"
+    panel.text(_ARROW_AT + [0.5 * _ARROW + 8, 0], words, SMALL, INK)
 
 
 def _pictures(states: list[State]) -> Iterator[Picture]:
