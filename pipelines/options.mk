@@ -57,9 +57,11 @@ MATERIAL_TABLE := $(call set_of,$(MATERIALS))
 # What only the run of a tumour has: another mesh may have none.
 of_a_tumour := $(addprefix $(RUN)/,curve.vtp curve.tsv curve.json .curve.settings band.vtp band.tsv band-curve.tsv band.json \
   figures/*-matching.png slicer/scene.mrml slicer/column-* slicer/curve-*)
+# $(call of_the_states,NAME): the states on the way to a shape, and their picture.
+of_the_states = $(addprefix $(RUN)/,states/$1.vtkhdf states/$1.json states/$1-states figures/$1-states.png)
 # $(call of_the_plates,VIEW): what is made of a compressed shape.
 of_the_plates = $(addprefix $(RUN)/,$1.vti $1.png $1-sensitivity.vtkhdf $1-sensitivity.tsv lookup.h5 page.html patient.json patient-cc.png patient-mlo.png curves.vtp curves.tsv \
-  figures/$1-mammogram.png figures/cc-points.png figures/mlo-curves.png) $(of_a_tumour)
+  figures/$1-mammogram.png figures/cc-points.png figures/mlo-curves.png) $(call of_the_states,$1) $(of_a_tumour)
 # Contours for checking the labels; a program that replaces segment need not draw them.
 contours := $(if $(filter $(BIN)/segment,$(SEGMENT)),--overlay $(RUN)/contours.png)
 

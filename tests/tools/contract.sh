@@ -100,10 +100,10 @@ pass "materials, tumour, chest wall and case file are known by content"
 
 # Without a tumour nothing of a tumour is left.
 made TUMOUR=auto
-mkdir -p "$run/figures" "$run/slicer"
-touch "$run/figures/cc-matching.png" "$run/slicer/curve-mlo.mrk.json" "$run/slicer/scene.mrml"
+mkdir -p "$run/figures" "$run/slicer" "$run/states/supine-states"
+touch "$run/figures/cc-matching.png" "$run/slicer/curve-mlo.mrk.json" "$run/slicer/scene.mrml" "$run/figures/cc-states.png"
 made TUMOUR=none
-for file in curve.vtp curve.tsv curve.json figures/cc-matching.png slicer/curve-mlo.mrk.json slicer/scene.mrml; do
+for file in curve.vtp curve.tsv curve.json figures/cc-matching.png slicer/curve-mlo.mrk.json slicer/scene.mrml figures/cc-states.png states/supine-states; do
   [ ! -e "$run/$file" ] || fail "without a tumour there is no $file"
 done
 [ -e "$run/page.html" ] || fail "and the page of all points instead"
