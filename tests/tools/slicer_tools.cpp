@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <itkDisplacementFieldTransform.h>
 #include <itkImageFileReader.h>
+#include <itkMetaDataObject.h>
 #include <itkNrrdImageIO.h>
 #include <vtkCellData.h>
 #include <vtkFieldData.h>
@@ -46,6 +47,11 @@ FieldTransform::Pointer read_field(const fs::path& file) {
   reader->Update();
   auto transform = FieldTransform::New();
   transform->SetDisplacementField(reader->GetOutput());
+  // By this Slicer knows that the field leads from the points of an image to those of the moving one.
+  std::string type;
+  itk::ExposeMetaData(reader->GetOutput()->GetMetaDataDictionary(), "displacement field type",
+                      type);
+  EXPECT_EQ(type, "resampling") << file;
   return transform;
 }
 
