@@ -8,9 +8,9 @@
 
 namespace breast {
 
-/// Writes the hexahedra of `points` as cells, with CellData tissue (and det_F), PointData
-/// displacement_from_scan (and displacement_from_stress_free, if there is one), and FieldData SPACE
-/// = LPS, units and history.
+/// Writes the hexahedra of `points` as cells, with CellData tissue, PointData displacement_from_scan, and
+/// FieldData SPACE = LPS, units and history. CellData det_F and pressure (Pa) and PointData contact_pressure
+/// (kPa) and displacement_from_stress_free are added if the mesh has them.
 void write_state(const std::filesystem::path& file, const HexMesh& mesh);
 
 }  // namespace breast

@@ -14,6 +14,7 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include "fixtures/run_tool.hpp"
 #include "fixtures/samples.hpp"
 #include "fixtures/scratch_folder.hpp"
 #include "io/geometry_file.hpp"
@@ -68,6 +69,43 @@ TEST(VtkOpens, Meshes) {
     vtkDataArray* seconds = grid->GetFieldData()->GetArray("wall_seconds");
     ASSERT_NE(seconds, nullptr);
     EXPECT_EQ(seconds->GetTuple1(0), mesh.wall_seconds);
+  }
+}
+
+// The same arrays, for programs that do not read VTKHDF.
+TEST(VtkOpens, MeshesAsXml) {
+  const ScratchFolder folder;
+  for (const int order : {1, 2}) {
+    const HexMesh mesh = samples::full_mesh(3, order);
+    write_mesh(folder / "mesh.vtkhdf", mesh);
+    const ToolResult result = run_tool("export-vtu", {"mesh.vtkhdf", "mesh.vtu"}, folder.path());
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    vtkNew<vtkXMLUnstructuredGridReader> reader;
+    reader->SetFileName((folder / "mesh.vtu").c_str());
+    reader->Update();
+    vtkUnstructuredGrid* grid = reader->GetOutput();
+    vtkNew<vtkHDFReader> original;
+    auto* same = vtkUnstructuredGrid::SafeDownCast(open(original, folder / "mesh.vtkhdf"));
+    ASSERT_EQ(grid->GetNumberOfCells(), same->GetNumberOfCells());
+    for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell) {
+      ASSERT_EQ(grid->GetCellType(cell), same->GetCellType(cell));
+      for (vtkIdType k = 0; k < grid->GetCell(cell)->GetNumberOfPoints(); ++k)
+        ASSERT_EQ(grid->GetCell(cell)->GetPointId(k), same->GetCell(cell)->GetPointId(k));
+    }
+    expect_vectors(grid->GetPoints()->GetData(), mesh.points, "points");
+    const auto expect_same = [](vtkDataArray* ours, vtkDataArray* theirs, const char* name) {
+      ASSERT_NE(ours, nullptr) << name;
+      ASSERT_EQ(ours->GetNumberOfValues(), theirs->GetNumberOfValues()) << name;
+      for (vtkIdType i = 0; i < ours->GetNumberOfTuples(); ++i) {
+        for (int c = 0; c < ours->GetNumberOfComponents(); ++c)
+          EXPECT_EQ(ours->GetComponent(i, c), theirs->GetComponent(i, c)) << name;
+      }
+    };
+    for (const char* name : {"tissue", "pressure", "det_F"})
+      expect_same(grid->GetCellData()->GetArray(name), same->GetCellData()->GetArray(name), name);
+    for (const char* name :
+         {"displacement_from_scan", "displacement_from_stress_free", "contact_pressure"})
+      expect_same(grid->GetPointData()->GetArray(name), same->GetPointData()->GetArray(name), name);
   }
 }
 

@@ -22,6 +22,15 @@ std::vector<Vec3> from(const std::vector<Vec3>& shape, const std::vector<Vec3>& 
   return displacement;
 }
 
+/// One value per cell or point, if there are any.
+void add_each(vtkFieldData* data, const char* name, const std::vector<double>& values) {
+  if (values.empty()) return;
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  for (const double value : values) array->InsertNextValue(value);
+  data->AddArray(array);
+}
+
 }  // namespace
 
 void write_state(const std::filesystem::path& file, const HexMesh& mesh) {
@@ -37,12 +46,9 @@ void write_state(const std::filesystem::path& file, const HexMesh& mesh) {
     tissue->InsertNextValue(static_cast<unsigned char>(mesh.tissue[std::size_t(e)]));
   }
   grid->GetCellData()->AddArray(tissue);
-  if (!mesh.det_F.empty()) {
-    vtkNew<vtkDoubleArray> det;
-    det->SetName("det_F");
-    for (const double value : mesh.det_F) det->InsertNextValue(value);
-    grid->GetCellData()->AddArray(det);
-  }
+  add_each(grid->GetCellData(), "det_F", mesh.det_F);
+  add_each(grid->GetCellData(), "pressure", mesh.pressure);
+  add_each(grid->GetPointData(), "contact_pressure", mesh.contact_pressure);
   grid->GetPointData()->AddArray(
       vector_array("displacement_from_scan", from(mesh.imaged, mesh.points)));
   if (!mesh.reference.empty()) {
