@@ -131,15 +131,15 @@ def _caption(image: Mammogram, curves: dict[str, list[Line]], size: np.ndarray) 
         return ""
     if image.view == "CC":
         if len(asked) > 1:
-            return "the points asked for; white: nipple"
+            return "the points asked for; small white ring: nipple"
         artificial = any(name.startswith("model's artificial") for name in curves)
-        return f"yellow ring: {'artificial tumour' if artificial else 'the point'}; white: nipple"
+        return f"yellow ring: {'artificial tumour' if artificial else 'the point'}; small white ring: nipple"
     outside = sum(parts_inside(line.uv_mm, size)[1] for line in curves.get("curve", []))
     lost = f" ({outside:.0f} mm outside the image)" if outside >= 0.5 else ""
     if len(asked) > 1:
         return f"their curves{lost}"
     place = _place_words(curves)
-    return f"green: its curve{lost}; blue, dashed: equal distance from the nipple" + (f"; yellow ring: {place}" if place else "")
+    return f"solid green: its curve{lost}; blue, dashed: equal distance from the nipple" + (f"; yellow ring: {place}" if place else "")
 
 
 def _add_curves(panel: Panel, image: Mammogram, curves: dict[str, list[Line]], hanging: _Hanging) -> list[tuple[np.ndarray, float]]:

@@ -6,12 +6,13 @@ from ..state import State
 from .body import add_body, add_image_border, add_plates, anterior_view, compression_words, lateral_view, plate_view, \
     tumour_words, two_plates
 from .colours import BAD
+from .compression import show
 from .inputs import Inputs, need
-from .layout import Picture
+from .layout import Panel, Picture
 from .mammogram import add_mammograms
 from .matching import add_columns
 from .outlines import add_silhouettes, legend_of, shapes_of
-from .scene import Scene
+from .scene import Camera, Scene
 from .slices import AXIAL, SAGITTAL, Slices
 
 _SPLIT, _LEGEND, _SCAN_RIGHT = 0.5, 0.03, 0.63
@@ -41,14 +42,13 @@ def _add_tissues(picture: Picture, state: State) -> None:
         panel.scene(scene, view)
 
 
-def _add_pressed(picture: Picture, inputs: Inputs, state: State, left: float, letter: str) -> None:
+def _pressed(picture: Picture, inputs: Inputs, state: State, left: float, letter: str) -> tuple[Panel, Scene, Camera, str]:
     panel, scene = picture.panel(left, 0, left + 0.25, _SPLIT), Scene()
     add_columns(scene, inputs.curves, "column in CC" if state.contact.view == "CC" else "column in MLO")
     add_body(scene, state, state.points, skin_opacity=0.3, gland_opacity=0.85)
     add_plates(scene, state, state.points, two_plates(state), 0.4)
     add_image_border(scene, state)
-    panel.caption(f"{letter} {compression_words(state)}; orange: image border")
-    panel.scene(scene, plate_view(state))
+    return panel, scene, plate_view(state), f"{letter} {compression_words(state)}; orange: image border"
 
 
 def _add_images(picture: Picture, chain: dict[str, State], inputs: Inputs) -> None:
@@ -81,7 +81,6 @@ def draw(inputs: Inputs) -> Picture:
     add_silhouettes(panel, shapes, words=False)
     panel.scale_bar()
     panel.compass()
-    _add_pressed(picture, inputs, chain["cc"], 0, "(d)")
-    _add_pressed(picture, inputs, chain["mlo"], 0.25, "(e)")
+    show([_pressed(picture, inputs, chain["cc"], 0, "(d)"), _pressed(picture, inputs, chain["mlo"], 0.25, "(e)")])
     _add_images(picture, chain, inputs)
     return picture
