@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # What else is made of the chain of Makefile.pipeline: the table of displacements, the errors against the phantom's truth, the summary.
 CHAIN_FILES := $(addprefix $(RUN)/,labels.vtkhdf geometry.vtkhdf mesh.vtkhdf reference.vtkhdf \
-  supine.vtkhdf cc.vtkhdf mlo.vtkhdf cc.vti mlo.vti $(if $(no_tumour),lookup.h5 page.html,curve.vtp))
+  supine.vtkhdf cc.vtkhdf mlo.vtkhdf cc.vti mlo.vti $(if $(no_tumour),,curve.vtp) $(if $(PAPER),$(if $(no_tumour),lookup.h5 page.html),lookup.h5 page.html))
 
 # The model without gland uses the set in which the law of fat replaces that of fibroglandular tissue.
 $(RUN)/fat-only.tsv: $(whole_set)

@@ -10,7 +10,7 @@ from breast.study.cohort import cohort_cost, cohort_table, read_cases
 from breast.study.documents import markdown_table, run_line, with_run, with_tables, wrong_numbers
 from breast.study.sides import side_table
 from breast.study.stage_report import StageReport, failure_of, posture_failure_of
-from breast.study.summary import aligned, folded
+from breast.study.summary import _curve_text, aligned, folded
 from breast.study.table import Table
 from study_files import InFolder, table_of
 
@@ -22,6 +22,18 @@ try:
     without_jinja = ""
 except ImportError:
     without_jinja = "python3-jinja2 is not installed"
+
+
+class Summaries(InFolder):
+    def test_name_the_page_with_and_without_a_tumour_and_say_when_there_is_no_curve(self):
+        self.assertEqual(_curve_text(self.folder), "")
+        self.write("page.html", "x")
+        self.assertIn("The page to read: ", _curve_text(self.folder))
+        self.write("curve.tsv", "query\n0\n")
+        self.assertIn("CC point to MLO curve: ", _curve_text(self.folder))
+        self.write("mlo.json", '{"accepted": false, "status": "not_gripped"}')
+        said = _curve_text(self.folder)
+        self.assertTrue(said.startswith("No curve: one of the views is no compression.\nThe page to read: "), said)
 
 
 class StageReports(InFolder):

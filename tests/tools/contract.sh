@@ -58,7 +58,7 @@ call() { make -f Makefile.pipeline RUNS="$work/runs" CASE=one PRESET=small "$@" 
 made() { call "$@" chain || fail "chain $*"; }
 
 made
-[ "$(wc -l < "$work/err")" -eq 11 ] && grep -q '^compress CC  .* [0-9]* s$' "$work/err" && grep -q '^hexmesh .*8 elements, .* 0.50, [0-9]* s$' "$work/err" ||
+[ "$(wc -l < "$work/err")" -eq 15 ] && grep -q '^compress CC  .* [0-9]* s$' "$work/err" && grep -q '^hexmesh .*8 elements, .* 0.50, [0-9]* s$' "$work/err" ||
   fail "a line a stage, with view, what was found and seconds"
 grep -q '^compress MLO: compress: warning: it says more' "$run/log.txt" && ! grep -q 'it says more' "$work/err" || fail "all else is in log.txt"
 call -q chain || fail "a second run does nothing"

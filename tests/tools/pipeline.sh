@@ -18,6 +18,7 @@ for file in labels geometry mesh reference supine cc mlo; do
   [ -s "$case_dir/$file.vtkhdf" ] && [ -s "$case_dir/$file.json" ] || fail "$file.vtkhdf and its report exist"
 done
 [ -s "$case_dir/curve.vtp" ] && [ -s "$case_dir/curve.tsv" ] || fail "the curve exists"
+grep -q 'seen in CC alone' "$case_dir/page.html" || fail "and the page that says where the tumour lies"
 pass "the chain runs to the curve under -j2"
 
 run -q chain || fail "a second run does nothing"

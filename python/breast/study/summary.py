@@ -110,11 +110,14 @@ def _compression_text(run: Path) -> str:
 
 
 def _curve_text(run: Path) -> str:
-    if _text_of(run / "curve.tsv"):
-        return f"CC point to MLO curve: {run}/curve.tsv, in ParaView {run}/curve.vtp\n"
-    if not (run / "page.html").exists():
-        return "No curve: one of the views is no compression.\n"
-    return f"Every CC point and its MLO curve: {run}/page.html (a browser opens it), numbers in {run}/lookup.h5\n"
+    said = ""
+    if views_without_compression(run):
+        said = "No curve: one of the views is no compression.\n"
+    elif _text_of(run / "curve.tsv"):
+        said = f"CC point to MLO curve: {run}/curve.tsv, in ParaView {run}/curve.vtp\n"
+    if (run / "page.html").exists():
+        said += f"The page to read: {run}/page.html (a browser opens it); curves of every CC and MLO point: {run}/lookup.h5\n"
+    return said
 
 
 def _pictures_text(run: Path) -> str:
