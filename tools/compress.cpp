@@ -63,7 +63,8 @@ void declare(Tool& tool, Choices& c) {
       "quarter of the smaller force, which means that a plate presses on the chest wall or the "
       "cut. When a compression stops early, reason is an identifier (folds_at_plate_edge, "
       "folds_on_chest_wall, folds_between_edge_and_wall, folds_between_plates, "
-      "folds_behind_plates, shrinks_... with the same endings, iteration_limit, "
+      "folds_behind_plates; shrinks_at_plate_edge and so on, if an element shrinks too much instead "
+      "of folding; iteration_limit, "
       "indefinite_tangent, no_admissible_step, solve_limit, out_of_reach, gravity_not_carried, "
       "pull_not_carried, no_equilibrium_at_touch, not_gripped) and explanation is a sentence.");
   tool.cite("Pathmanathan et al. 2008, section II-D, equations (7)-(8)");
@@ -176,8 +177,8 @@ void declare(Tool& tool, Choices& c) {
               0, 2);
   tool.number(
       c.plate_step, "--plate-step", "MM",
-      "longest step by which the plates close (default: 0.07 of the initial thickness; in MLO and ML "
-      "with friction 0.006 while the hand lets go)",
+      "longest step by which the plates close (default: 0.07 of the initial thickness; with friction "
+      "in MLO and ML 0.006 of it while the hand that holds the breast is withdrawn)",
       0.1, 1000);
   tool.choice(c.contact, "--contact", {"active-set", "al"},
               "contact algorithm: exact active set, or the paper's augmented Lagrangian");

@@ -104,9 +104,9 @@ int main(int argc, char** argv) {
       "the axes of the body, and of the tissue as a volume-weighted function of its distance "
       "from the rib cage in the scan. The ribs are assumed to lie behind the chest-wall surface "
       "by the thickness of the muscle. The table has one row per breast; --summary gives the "
-      "mean, standard deviation and range, beside the values of --women. In the means of tissue "
-      "at some distance from the ribs, a breast counts by the fraction of it that lies there, as "
-      "it does in means over landmarks.");
+      "mean, standard deviation and range, beside the values of --women. In the mean over "
+      "the tissue at some distance from the ribs, a breast is weighted by the fraction of its "
+      "volume at that distance, as in a mean over landmarks.");
   tool.inputs(c.meshes, "FILE.vtkhdf", "deformed meshes (forward) that have a chest-wall surface");
   tool.output_file(c.table, "--table", "OUT.tsv",
                    "table with one row per breast (default: stdout)");

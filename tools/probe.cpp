@@ -25,8 +25,8 @@ void declare(Tool& tool, Choices& c) {
           "Prints one tab-separated row per file to stdout. For each landmark NAME the columns "
           "are its position NAME_x_mm, NAME_y_mm, NAME_z_mm (LPS); the length of its "
           "displacement from the imaged shape, NAME_mm; and, with --base, the distance between "
-          "its positions in this file and in the base, NAME_relative_mm, which also shows a "
-          "change of direction at equal length.")
+          "its positions in this file and in the base, NAME_relative_mm. Two displacements of the "
+          "same length in different directions differ in this column alone.")
       .cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), Tables III to VI");
   tool.inputs(c.files, "FILE.vtkhdf", "meshes written by hexmesh, backward, forward or compress");
   tool.text(c.landmarks, "--landmarks", "NAME,...",

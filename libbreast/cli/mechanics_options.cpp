@@ -103,9 +103,9 @@ void declare_mechanics(Tool& tool, MechanicsChoices& choices, const std::string&
       "fixed, roller, or springs of KC kPa/mm, or of K at the medial, superior, lateral or "
       "inferior BORDER of the breast (spring:0.001,medial=0.1); L and P as at the wall; where the "
       "cut faces the sternum, an attachment "
-      "of KS kPa/mm pulls tissue back that moves away from it. tissue: the same springs, which "
-      "also carry the weight of the tissue beyond, as far as its own supports at the wall (KT) "
-      "do not");
+      "of KS kPa/mm pulls tissue back that moves away from it. tissue: the same springs, on which "
+      "the tissue beyond the cut also hangs, with the part of its weight that its springs at the "
+      "wall (KT) do not carry");
   tool.number(choices.skin_compression, "--skin-compression", "PERCENT",
               "share of the skin's stiffness that remains in compression, where skin wrinkles", 0.1,
               100);

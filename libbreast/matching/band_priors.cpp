@@ -37,8 +37,8 @@ std::vector<Prior> default_priors() {
        "outlines of the same view on different dates differ by 2-7 mm rms after a similarity "
        "fit, in four pairs of public mammograms; each image has a share of it"},
       {"chain", 2.0, "mm",
-       "errors of segmentation, mesh and tissue: the excess of the phantom's true errors over a "
-       "band without this term (docs/validation.md)"},
+       "errors of segmentation, mesh and tissue: what a band without this term lacked to hold the "
+       "phantom's true errors (docs/validation.md)"},
       {"chest_wall", 1.0, "sigma",
        "in units of the wall's own standard deviation (segment), everywhere in one direction, "
        "which is the worst case"},

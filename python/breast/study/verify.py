@@ -69,6 +69,6 @@ def _verify(request: Request) -> Table:
     return result
 
 
-@kind("expected", "EXPECTED.tsv RUN", "table of expected values, with the values of the run in rows that differ")
+@kind("expected", "EXPECTED.tsv RUN", "the table of expected values, brought up to date: a row from which the run differs gets the value of the run")
 def _expected(request: Request) -> str:
     return expected_anew(read_text(request.word(0)), request.path(1))
