@@ -6,6 +6,7 @@ import json
 import re
 import shutil
 import unittest
+from html.parser import HTMLParser
 from pathlib import Path
 
 import numpy as np
@@ -40,6 +41,21 @@ def words_of(page: str) -> str:
     """What a reader sees, without the scripts' part."""
     seen = re.sub(r"<(script|style)\b.*?</\1>|<[^>]*>", " ", page.partition('<section id="pointing"')[0], flags=re.S)
     return re.sub(r"\s+", " ", seen.replace("&#39;", "'"))
+
+
+class Elements(HTMLParser):
+    """The elements of a page with their attributes, in order."""
+
+    def __init__(self, page: str) -> None:
+        super().__init__()
+        self.all: list[tuple[str, dict[str, str]]] = []
+        self.feed(page)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.all.append((tag, {name: value or "" for name, value in attrs}))
+
+    def named(self, tag: str) -> list[dict[str, str]]:
+        return [given for name, given in self.all if name == tag]
 
 
 def number_of(page: str, key: str) -> list[float]:
@@ -303,6 +319,43 @@ class WhatIsSaid(unittest.TestCase):
         (run / "patient.json").write_text(json.dumps({"aligned": {"CC": key}}))
         with self.assertRaisesRegex(BreastError, "does not say where the CC image lies"):
             read_patient(run, "CC", "left")
+
+    def test_can_be_heard_and_reached_without_a_mouse(self):
+        """The rules of WCAG 2.1 that can be judged without a browser; tests/page/check_page.py judges the rest in one."""
+        views, _ = self.moved_tumour()
+        seen = Elements(views_page(self.run_folder, views))
+        self.assertEqual(seen.named("html")[0]["lang"], "en")
+        for svg in seen.named("svg"):
+            self.assertTrue(len(svg.get("aria-label", "")) > 20 if svg.get("role") == "img" else svg["aria-hidden"] == "true", svg)
+        levels = [int(name[1]) for name, _ in seen.all if name in ("h1", "h2", "h3")]
+        self.assertTrue(levels[0] == 1 and levels.count(1) == 1 and all(b - a <= 1 for a, b in zip(levels, levels[1:])), levels)
+        self.assertEqual({th.get("scope") for th in seen.named("th")}, {"row"})
+        labelled = {label["for"] for label in seen.named("label") if "for" in label}
+        inside = self.page.count('<label><input type="checkbox"')
+        self.assertEqual(len(seen.named("input")), len(labelled) + inside, "every input has a label")
+        for canvas in seen.named("canvas"):
+            self.assertEqual(canvas["tabindex"], "0")
+        self.assertFalse([name for name, given in seen.all if int(given.get("tabindex", 0)) > 0], "nothing jumps the order")
+        ids = [given["id"] for _, given in seen.all if "id" in given]
+        self.assertEqual(len(ids), len(set(ids)))
+        for _, given in seen.all:
+            for name in (given.get("aria-labelledby", "") + " " + given.get("aria-describedby", "")).split():
+                self.assertIn(name, ids)
+
+    def test_all_pictures_have_one_scale_and_bars_of_20_mm(self):
+        views, _ = self.moved_tumour()
+        page = views_page(self.run_folder, views)
+        figures = re.findall(r'<figure class="picture".*?</figure>', page, flags=re.S)
+        self.assertEqual(len(figures), 3)
+        for figure in figures:
+            width = float(re.search(r"--w: ([\d.]+)", figure)[1])
+            self.assertAlmostEqual(width, float(re.search(r'viewBox="0 0 ([\d.]+)', figure)[1]), delta=0.06)
+            self.assertTrue(re.search(r'class="bar" data-mm="20" d="M[-\d.]+ [\d.]+v2h20v-2"', figure), "its length in mm is what it says")
+        for image, _ in views.pairs:
+            figure = next(figure for figure in figures if f'id="picture-{image.view}"' in figure)
+            width, height = (float(n) for n in re.search(r'<image [^>]*width="([\d.]+)" height="([\d.]+)"', figure).groups())
+            rows, columns = image.images["path"].shape
+            np.testing.assert_allclose((width, height), image.pixel_mm * np.array([columns, rows]), atol=0.01)
 
     def test_every_advice_has_words_and_they_are_plain(self):
         """A kind of warning that has advice in the report has words on the page."""

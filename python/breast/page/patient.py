@@ -43,8 +43,8 @@ class PatientImage:
 
 
 def read_patient(run: Path, view: str, side: str) -> PatientImage | None:
-    """The patient's image of a view (CC, MLO); None where the run has none. Raises BreastError for a report that says nothing of it."""
-    picture, file = run / f"patient-{view.lower()}.png", run / "patient.json"
+    """The patient's image of a view (CC, MLO or ML); None where the run has none. Raises BreastError for a report that says nothing of it."""
+    picture, file = run / f"patient-{'cc' if view == 'CC' else 'mlo'}.png", run / "patient.json"
     if not picture.exists() or not file.exists():
         return None
     report, key = StageReport.read(file), f"aligned/{view}/"
