@@ -19,8 +19,9 @@ $(of_patient) &: $(page_states) $(CC2MLO) $(call changed,patient)
 	  --mlo-image $(lastword $(mammograms)) --cc-hung $(RUN)/patient-cc.png --mlo-hung $(RUN)/patient-mlo.png --report $(RUN)/patient.json $(share)
 endif
 # The page is also made of what there is when the plates do not hold the breast: it says so.
-page_settings := $(TABULATE) $(call named,$(MR)) $(page_options) $(of_patient)
-$(RUN)/page.html: $(RUN)/lookup.h5 $(addprefix $(RUN)/,cc.vti mlo.vti labels.vtkhdf mesh.vtkhdf) $(of_patient) $(MR_FILES) $(TABULATE) $(call changed,page)
+shown_states := $(wildcard $(addprefix $(F)/,supine-states.png cc-states.png mlo-states.png))
+page_settings := $(TABULATE) $(call named,$(MR)) $(page_options) $(of_patient) $(shown_states)
+$(RUN)/page.html: $(RUN)/lookup.h5 $(addprefix $(RUN)/,cc.vti mlo.vti labels.vtkhdf mesh.vtkhdf) $(of_patient) $(shown_states) $(MR_FILES) $(TABULATE) $(call changed,page)
 	@$(if $(of_patient),,rm -f $(addprefix $(RUN)/patient,.json .vtp .tsv -cc.png -mlo.png))
 	$(call prints,page,$@) $(tabulate) page $(RUN) $(MR) $(page_options)
 page: $(RUN)/page.html

@@ -305,6 +305,19 @@ class WhatIsSaid(unittest.TestCase):
             self.assertEqual(number_of(page, f"fit_{view}"), [round(views.patients[view].residual_mm, 1)])
         self.assertLess(len(re.findall(r"In the patient's own", words_of(self.page))), 1, "a run without them says nothing of them")
 
+    def test_animated_pictures_of_a_run_are_shown_up_to_3_mb(self):
+        run = small_run.scratch("animated")
+        for file in ("cc.vtkhdf", "mlo.vtkhdf", "cc.vti", "mlo.vti", "lookup.h5"):
+            shutil.copy(self.run_folder / file, run)
+        (run / "figures").mkdir()
+        for name, size in (("supine", 1_000_000), ("cc", 2_500_000), ("mlo", 1_000_000)):
+            (run / f"figures/{name}-states.png").write_bytes(b"p" * size)
+        page = views_page(run, read_views(run, None))
+        self.assertEqual(re.findall(r"<figcaption>The breast while ([^,]*)", page),
+                         ["the patient turns from prone to supine", "the plates close in MLO"])
+        self.assertEqual(page.count('src="data:image/png;base64,cHBw'), 2)
+        self.assertNotIn("animations", self.page.partition('<section id="pointing"')[0].partition("</style>")[2])
+
     def test_a_right_breast_is_hung_the_other_way(self):
         (run := small_run.scratch("right")).joinpath("patient-cc.png").write_bytes(b"png")
         key = {"scale": 1, "rotation_deg": 90, "shift_mm": [5, 6], "deviation_mm": 1, "residual_mm": 2,

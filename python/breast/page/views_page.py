@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 from ..cases.compression import VIEWS, why_not_made
 from ..command.beside import ended, readable_scan, started
 from ..errors import BreastError
-from ..study.html import page
+from ..study.files import exists
+from ..study.html import data_uri, page
 from ..study.kinds import Request, kind
 from ..study.stage_report import StageReport
 from ..study.summary import tumour_origin
@@ -30,6 +31,10 @@ _SCRIPTS = ("data", "lookup", "arc", "window", "view", "pins", "colours", "overl
 _TUMOUR_WORDS = {"none": "", "given": "the tumour of the MR, where the model has it",
                  "artificial": "an artificial tumour, put there by the program: not a finding"}
 
+_ANIMATIONS = {"supine": "The breast while the patient turns from prone to supine, equilibrium by equilibrium",
+               "cc": "The breast while the plates close in CC, equilibrium by equilibrium",
+               "mlo": "The breast while the plates close in MLO, equilibrium by equilibrium"}
+_LARGEST_ANIMATIONS = 3_000_000  # bytes
 _NOT_COUNTED = {"tumour": "how stiff the tumour is", "sternum": "how firmly the breast is held at the sternum",
                 "chest_wall": "where exactly the chest wall lies", "angle": "the true angle of the view", "detector": "the height of the plates"}
 
@@ -118,7 +123,7 @@ def views_page(run: Path, views: Views) -> str:
     pair = max(sum(widths[:2]), *widths, sum(picture.size[0] for picture in patients)) if widths else 1
     made = page("views", _TEMPLATES, title=_title(views), banners=banners_of(run), remarks=remarks_of(run),
                 answer_title=_answer_title(views), answer=_answer(views, lines), pictures=pictures, bar_mm=BAR_MM,
-                patients=patients,
+                patients=patients, animations=_animations(run),
                 row_mm=f"{max(sum(widths), pair):.1f}", pair_mm=f"{pair:.1f}",
                 tumour_words=_TUMOUR_WORDS[views.origin], tumour_kind="artificial" if views.origin == "artificial" else "tumour",
                 with_views=bool(views.pairs), with_lines=any(picture.line for picture in pictures), with_band=any(picture.band for picture in pictures),
@@ -163,6 +168,17 @@ def _pictures_of_patient(views: Views, lines: list[MatchedLine | None]) -> list[
     more = sum(patient.deviation_mm**2 for patient in views.patients.values()) ** 0.5
     return [patient_picture(image, state, views.patients[image.view], line.with_more(more) if line else None)
             for (image, state), line in zip(views.pairs, lines) if image.view in views.patients]
+
+
+def _animations(run: Path) -> list[tuple[str, str]]:
+    """The animated pictures of `make states` that the run has: what each shows, and its data URI; at most 3 MB of them."""
+    found, size = [], 0
+    for name, words in _ANIMATIONS.items():
+        file = run / f"figures/{name}-states.png"
+        if exists(file) and size + file.stat().st_size <= _LARGEST_ANIMATIONS:
+            size += file.stat().st_size
+            found.append((words, data_uri(file.read_bytes(), "png")))
+    return found
 
 
 def _answer_title(views: Views) -> str:
