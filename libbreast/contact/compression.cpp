@@ -178,7 +178,9 @@ void Compression::close_plates(State& state) {
   check_stability(state, *contact);
   if (scene_.options().estimate == Estimate::step) estimate(state, *contact);
   say_how_it_ended(state);
-  if (options_.states > 0) solve_states(path, *contact);
+  const bool usable = found_.converged() || (found_.record.status == SolveStatus::stopped_early &&
+                                             (found_.acceptable || !found_.contact->ends_image));
+  if (options_.states > 0 && usable) solve_states(path, *contact);
 }
 
 /// The states on the way, and the result as the last of them.

@@ -68,8 +68,8 @@ struct CompressionResult : Equilibrium {
   /// Of plates placed by the edge of the image: the state is within the ranges that decide, whether or
   /// not the target was reached.
   bool acceptable = false;
-  /// If asked for: equilibria from first contact to this result, which is the last, in equal steps of
-  /// thickness (contact/closing_states.hpp).
+  /// If asked for, and unless this result is sure to be refused: equilibria from first contact to it,
+  /// which is the last, in equal steps of thickness (contact/closing_states.hpp).
   std::vector<ClosingState> states;
 };
 
