@@ -79,6 +79,18 @@ DatasetBuilder& DatasetBuilder::sequence(std::uint32_t tag,
   return *this;
 }
 
+DatasetBuilder& DatasetBuilder::grey_layout(int columns, int rows, int stored, bool is_signed,
+                                            const char* photometric) {
+  return unsigned_short(0x00280002, 1)
+      .text(0x00280004, "CS", photometric)
+      .unsigned_short(0x00280010, std::uint16_t(rows))
+      .unsigned_short(0x00280011, std::uint16_t(columns))
+      .unsigned_short(0x00280100, 16)
+      .unsigned_short(0x00280101, std::uint16_t(stored))
+      .unsigned_short(0x00280102, std::uint16_t(stored - 1))
+      .unsigned_short(0x00280103, is_signed ? 1 : 0);
+}
+
 DatasetBuilder& DatasetBuilder::fragments(std::string_view bytes) {
   constexpr std::uint32_t pixel_data = 0x7fe00010;
   elements_[pixel_data] = tag_bytes(pixel_data) + "OB" + std::string(2, '\0') +

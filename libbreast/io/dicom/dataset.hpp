@@ -21,6 +21,9 @@ class DatasetBuilder {
   DatasetBuilder& signed_short(std::uint32_t tag, std::int16_t value);
   DatasetBuilder& words(std::uint32_t tag, std::string_view bytes);  ///< OW, 16-bit values
   DatasetBuilder& sequence(std::uint32_t tag, const std::vector<DatasetBuilder>& items);
+  /// How grey pixels of 16 bits lie in the pixel data (PS3.3 C.7.6.3): of which `stored` are used.
+  DatasetBuilder& grey_layout(int columns, int rows, int stored, bool is_signed,
+                              const char* photometric = "MONOCHROME2");
 
   /// Encapsulated pixel data: fragments with their heads, up to the delimiter that ends them.
   DatasetBuilder& fragments(std::string_view bytes);

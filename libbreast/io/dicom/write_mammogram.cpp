@@ -100,7 +100,7 @@ void add_positioning(DatasetBuilder& set, const Mammogram& image, const Mammogra
 }
 
 void add_pixels(DatasetBuilder& set, const Mammogram& image, bool for_processing) {
-  const std::uint16_t bits = for_processing ? 14 : 16;
+  const int bits = for_processing ? 14 : 16;
   const int highest = (1 << bits) - 1;
   const std::vector<std::uint16_t> stored =
       for_processing ? detector_signal(image) : hang(image).grey;
@@ -108,14 +108,8 @@ void add_pixels(DatasetBuilder& set, const Mammogram& image, bool for_processing
   std::snprintf(spacing, sizeof spacing, "%.8g\\%.8g", image.pixel, image.pixel);
   set.text(0x00181164, "DS", spacing)
       .text(0x00187004, "CS", "DIRECT")
-      .unsigned_short(0x00280002, 1)
-      .text(0x00280004, "CS", for_processing ? "MONOCHROME1" : "MONOCHROME2")
-      .unsigned_short(0x00280010, std::uint16_t(image.height))
-      .unsigned_short(0x00280011, std::uint16_t(image.width))
-      .unsigned_short(0x00280100, 16)
-      .unsigned_short(0x00280101, bits)
-      .unsigned_short(0x00280102, std::uint16_t(bits - 1))
-      .unsigned_short(0x00280103, 0)
+      .grey_layout(image.width, image.height, bits, false,
+                   for_processing ? "MONOCHROME1" : "MONOCHROME2")
       .text(0x00280301, "CS", "NO")
       .text(0x00281040, "CS", for_processing ? "LIN" : "LOG")
       .signed_short(0x00281041, for_processing ? 1 : -1)

@@ -62,14 +62,7 @@ std::string slice_bytes(const Volume<std::int16_t>& volume, int k, const std::st
   DatasetBuilder set;
   add_identity(set, k, description, scan);
   add_geometry(set, grid, k);
-  set.unsigned_short(0x00280002, 1)
-      .text(0x00280004, "CS", "MONOCHROME2")
-      .unsigned_short(0x00280010, std::uint16_t(grid.size[1]))
-      .unsigned_short(0x00280011, std::uint16_t(grid.size[0]))
-      .unsigned_short(0x00280100, 16)
-      .unsigned_short(0x00280101, 16)
-      .unsigned_short(0x00280102, 15)
-      .unsigned_short(0x00280103, 1)  // signed
+  set.grey_layout(grid.size[0], grid.size[1], 16, true)
       .words(0x7fe00010, {reinterpret_cast<const char*>(first), pixels * sizeof *first});
   return set.file();
 }
