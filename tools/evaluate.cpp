@@ -8,6 +8,7 @@
 #include "cli/tool.hpp"
 #include "core/error.hpp"
 #include "core/table.hpp"
+#include "core/text/lists.hpp"
 #include "evaluation/curve_distance.hpp"
 #include "evaluation/foreign_labels.hpp"
 #include "evaluation/label_surface.hpp"
@@ -98,9 +99,10 @@ int main(int argc, char** argv) {
   tool.input(given_file, "GIVEN",
              "label volume (.vtkhdf, .seg.nrrd, .nrrd, .nii, .mha) or surface (.vtp)");
   tool.input(truth_file, "TRUTH", "label volume or surface that is taken as true");
-  tool.texts(code_texts, "--code", "NUMBER=TISSUE|NAME=TISSUE",
+  tool.texts(code_texts, "--code", "NUMBER=TISSUE|NAME=TISSUE|PRESET",
              "tissue of a code, or of a named segment, in a label volume that was not made by "
-             "libbreast");
+             "libbreast, or a preset of these: " +
+                 join(code_preset_names(), ", "));
   tool.input_file(region_file, "--region", "FILE",
                   "volume of a region; the true breast is ignored outside it");
   tool.integer(region_code, "--region-code", "CODE",

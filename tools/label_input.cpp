@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "core/text/lists.hpp"
 #include "io/label_file.hpp"
 #include "io/segmentation_file.hpp"
 #include "io/volume_file.hpp"
@@ -57,10 +58,11 @@ ForeignLabels foreign_labels(const fs::path& file, const LabelChoices& choices) 
 
 void declare_label_choices(Tool& tool, const std::string& name, LabelChoices& choices) {
   tool.texts(
-      choices.codes, "--code", "NUMBER=TISSUE|NAME=TISSUE",
+      choices.codes, "--code", "NUMBER=TISSUE|NAME=TISSUE|PRESET",
       "tissue of a value or of a segment in labels from another program, such as 3=skin, wall=3 "
       "or 'Pectoralis=wall'; the tissues are air, fat, fibroglandular, skin, muscle (or wall), "
-      "tumour, other");
+      "tumour, other. Or a preset of these: " +
+          join(code_preset_names(), ", ") + ", or a table as they are (pipelines/codes)");
   tool.choice(choices.side, "--side", {"left", "right"},
               "breast that the labels show; needed only for labels from another program "
               "(segmentations of export-slicer state it)");

@@ -8,6 +8,7 @@
 #include "cli/tool.hpp"
 #include "core/error.hpp"
 #include "core/table.hpp"
+#include "core/text/lists.hpp"
 #include "io/label_file.hpp"
 #include "io/markups_file.hpp"
 #include "io/segmentation_file.hpp"
@@ -65,9 +66,10 @@ void declare(Tool& tool, Choices& c) {
       "label map (code 4 behind the wall), a surface (.vtp; of a file written by --points, its "
       "chest-wall points), or clicked points from 3D Slicer (.mrk.json or .fcsv) or in a table with "
       "columns x_mm y_mm z_mm (.tsv)");
-  tool.texts(c.codes, "--code", "NUMBER=TISSUE|NAME=TISSUE",
+  tool.texts(c.codes, "--code", "NUMBER=TISSUE|NAME=TISSUE|PRESET",
              "tissue of a value or of a segment in --chest-wall, such as wall=3 or "
-             "'Pectoralis=wall'");
+             "'Pectoralis=wall', or a preset of these: " +
+                 join(code_preset_names(), ", "));
   declare_accept_other(tool, "segment", c.accept_other);
   tool.choice(c.interior, "--interior", {"threshold", "region-growing"},
               "method that separates fat from fibroglandular tissue. threshold: a threshold "
@@ -236,10 +238,11 @@ void check_posture(const std::string& position, const std::string& posture, Run&
 
 /// Another scan of the same examination, if one is given.
 std::optional<Volume<float>> read_other(const std::filesystem::path& file, const ScanChoice& choice,
-                                        std::vector<Run::Input>& inputs) {
+                                        std::vector<Run::Input>& inputs, Run& run) {
   if (file.empty()) return {};
   VolumeSource source;
   Volume<float> scan = read_volume(file, choice, &source);
+  for (const std::string& remark : source.remarks) run.remark(remark);
   inputs.push_back({file, source.content_sha256, nullptr});
   return scan;
 }
@@ -272,8 +275,8 @@ void run_segment(const Choices& c, Run& run) {
   for (const std::string& remark : source.remarks) run.remark(remark);
   check_posture(source.patient_position, c.posture, run);
   std::vector<Run::Input> inputs{{c.scan, source.content_sha256, nullptr}};
-  options.fat = read_other(c.fat, ScanChoice(c.fat_series, options.side), inputs);
-  options.also = read_other(c.also, ScanChoice(c.also_series, options.side), inputs);
+  options.fat = read_other(c.fat, ScanChoice(c.fat_series, options.side), inputs, run);
+  options.also = read_other(c.also, ScanChoice(c.also_series, options.side), inputs, run);
   if (wall) {
     Origin mr = origin_of_scan(c.scan, source.content_sha256, scan.grid);
     mr.side = options.side;

@@ -56,17 +56,6 @@ const std::map<std::string, Tissue>& known_names() {
   return names;
 }
 
-std::string plain(const std::string& name) {
-  std::string text;
-  for (const char c : name) {
-    const bool letter = std::isalnum(static_cast<unsigned char>(c)) != 0;
-    if (letter) text += char(std::tolower(static_cast<unsigned char>(c)));
-    if (!letter && !text.empty() && text.back() != ' ') text += ' ';
-  }
-  while (text.ends_with(' ')) text.pop_back();
-  return text;
-}
-
 std::string listed(const std::vector<std::string>& names) {
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "'" : ", '") + name + "'";
@@ -83,10 +72,12 @@ bool is_number(const std::string& text) {
   return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-std::optional<Tissue> tissue_of(const std::string& text) {
-  if (text == "wall") return Tissue::muscle;
-  for (int n = 0; n < n_tissues; ++n) {
-    if (text == tissue_name(Tissue(n))) return Tissue(n);
+/// What is known of a segment's name, or of it without the number that 3D Slicer may have added.
+std::optional<Tissue> named_tissue(const std::string& name,
+                                   const std::map<std::string, Tissue>& known) {
+  for (const bool number : {true, false}) {
+    const auto found = known.find(plain_name(name, number));
+    if (found != known.end()) return found->second;
   }
   return std::nullopt;
 }
@@ -105,9 +96,9 @@ std::optional<Tissue> tissue_of(const Segment& segment, const TissueCodes& codes
   if (const auto coded = codes.values.find(segment.value); coded != codes.values.end())
     return coded->second;
   if (const auto tag = segment.tags.find(tissue_tag); tag != segment.tags.end())
-    return tissue_of(tag->second);
-  const auto known = known_names().find(plain(segment.name));
-  return known == known_names().end() ? std::nullopt : std::optional(known->second);
+    return tissue_from_text(tag->second);
+  if (const auto preset = named_tissue(segment.name, codes.preset.names)) return preset;
+  return named_tissue(segment.name, known_names());
 }
 
 void check_asked(const std::vector<Segment>& segments, const TissueCodes& codes,
@@ -133,15 +124,24 @@ void check_asked(const std::vector<Segment>& segments, const TissueCodes& codes,
   }
 }
 
-std::uint8_t translate(float value, const TissueCodes& codes, const std::string& name) {
-  if (codes.values.empty()) {
+/// A preset of another program would make everything `other`.
+void check_preset(const Volume<float>& volume, const CodePreset& preset, const std::string& name) {
+  if (preset.values.empty() && preset.names.empty()) return;
+  for (const float value : volume.voxels) {
+    if (value != 0 && preset.values.count(int(value)) != 0) return;
+  }
+  throw input_error(name, ": has none of the values of the preset that --code names");
+}
+
+std::uint8_t translate(float value, const std::map<int, Tissue>& codes, const std::string& name) {
+  if (codes.empty()) {
     if (value >= 0 && value < n_tissues && value == float(int(value))) return std::uint8_t(value);
     throw input_error(name, ": holds ", value, ", which is not a tissue code from 0 to ",
                       n_tissues - 1, "; translate it with --code");
   }
   const bool whole = value >= 0 && value <= 65535 && value == float(int(value));
-  const auto found = whole ? codes.values.find(int(value)) : codes.values.end();
-  if (found != codes.values.end()) return std::uint8_t(found->second);
+  const auto found = whole ? codes.find(int(value)) : codes.end();
+  if (found != codes.end()) return std::uint8_t(found->second);
   return std::uint8_t(value == 0 ? Tissue::air : Tissue::other);
 }
 
@@ -151,8 +151,13 @@ TissueCodes parse_tissue_codes(const std::vector<std::string>& texts) {
   TissueCodes codes;
   for (const std::string& text : texts) {
     const std::size_t equals = text.rfind('=');
-    const std::string first = text.substr(0, equals);
-    const std::string second = equals == std::string::npos ? "" : text.substr(equals + 1);
+    if (equals == std::string::npos) {
+      const CodePreset preset = load_code_preset(text);
+      codes.preset.values.insert(preset.values.begin(), preset.values.end());
+      codes.preset.names.insert(preset.names.begin(), preset.names.end());
+      continue;
+    }
+    const std::string first = text.substr(0, equals), second = text.substr(equals + 1);
     const bool turned = is_number(second);  // wall=3
     const std::string &foreign = turned ? second : first, &ours = turned ? first : second;
     if (foreign.empty() || ours.empty()) {
@@ -160,7 +165,7 @@ TissueCodes parse_tissue_codes(const std::vector<std::string>& texts) {
                         "' is not NUMBER=TISSUE, TISSUE=NUMBER or NAME=TISSUE; for example "
                         "29=fibroglandular or wall=3");
     }
-    const auto tissue = tissue_of(ours);
+    const auto tissue = tissue_from_text(ours);
     if (!tissue) {
       throw input_error(
           "--code: '", text, "': '", ours,
@@ -236,10 +241,13 @@ LabelVolume translate_labels(const Volume<float>& volume, const TissueCodes& cod
     throw input_error(name, ": is not a segmentation (.seg.nrrd) and has no segment '",
                       codes.names.begin()->first, "', which --code names: give its number instead");
   }
+  std::map<int, Tissue> values = codes.values;
+  values.insert(codes.preset.values.begin(), codes.preset.values.end());
+  check_preset(volume, codes.preset, name);
   LabelVolume labels;
   labels.grid = volume.grid;
   labels.tissue.reserve(volume.voxels.size());
-  for (const float value : volume.voxels) labels.tissue.push_back(translate(value, codes, name));
+  for (const float value : volume.voxels) labels.tissue.push_back(translate(value, values, name));
   return labels;
 }
 

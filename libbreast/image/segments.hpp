@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "image/code_presets.hpp"
 #include "image/label_volume.hpp"
 
 namespace breast {
@@ -32,12 +33,15 @@ struct SegmentedVolume {
 struct TissueCodes {
   std::map<int, Tissue> values;
   std::map<std::string, Tissue> names;
-  bool empty() const { return values.empty() && names.empty(); }
+  CodePreset preset;  ///< where neither says anything; the file need not have all of it
+  bool empty() const {
+    return values.empty() && names.empty() && preset.values.empty() && preset.names.empty();
+  }
 };
 
 /// Parses texts such as "29=fibroglandular", "wall=3" or "Pectoralis left=wall", which assign a
-/// tissue to a value or to a segment's name; "wall" means muscle. Throws Error (input) beginning
-/// with "--code".
+/// tissue to a value or to a segment's name; "wall" means muscle. A text without "=" is a preset or a table
+/// of one (load_code_preset); of several the first counts. Throws Error (input) beginning with "--code".
 TissueCodes parse_tissue_codes(const std::vector<std::string>& texts);
 
 /// The segments of a label volume: the tissues that occur, except air. The tags contain tissue,
@@ -54,15 +58,16 @@ std::string tagged_scan(const std::vector<Segment>& segments);
 /// Name and colour of a tissue's segment.
 Segment segment_of(Tissue tissue);
 
-/// Maps values to tissues: by --code, otherwise by the tag of segments_of, otherwise by name,
-/// ignoring case ("Chest wall", "Skin", "Gland", "Tumor" ...). Throws Error (input) beginning with
+/// Maps values to tissues: by --code, otherwise by the tag of segments_of, otherwise by the preset's names,
+/// otherwise by name, ignoring case and the _1 that 3D Slicer adds ("Chest wall", "Skin", "Gland", "Tumor" ...). Throws Error (input) beginning with
 /// `name` for a segment that none of these identifies, and for one that `codes` names but the file
 /// does not have, listing the existing segments and the known names.
 TissueCodes codes_of(const std::vector<Segment>& segments, const TissueCodes& codes,
                      const std::string& name);
 
 /// With a table of codes, values that it does not name become `other` (0: air). Without one, throws
-/// Error (input) beginning with `name` at the first voxel that is not a tissue code.
+/// Error (input) beginning with `name` at the first voxel that is not a tissue code; with a preset, if no
+/// voxel has one of its values.
 LabelVolume translate_labels(const Volume<float>& volume, const TissueCodes& codes,
                              const std::string& name);
 

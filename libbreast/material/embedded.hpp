@@ -2,14 +2,12 @@
 // The material tables compiled into the library (generated from pipelines/materials/*.tsv).
 #pragma once
 
-#include <string_view>
 #include <vector>
+
+#include "core/embedded_table.hpp"
 
 namespace breast {
 
-struct EmbeddedTable {
-  std::string_view name, text;
-};
 const std::vector<EmbeddedTable>& embedded_materials();
 
 }  // namespace breast

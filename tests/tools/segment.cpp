@@ -10,6 +10,7 @@
 #include "fixtures/run_tool.hpp"
 #include "fixtures/scratch_folder.hpp"
 #include "fixtures/synthetic_scan.hpp"
+#include "io/dicom/dataset.hpp"
 #include "io/label_file.hpp"
 #include "io/surface_file.hpp"
 #include "io/volume_file.hpp"
@@ -126,6 +127,16 @@ TEST_F(SegmentFolder, TheChosenSeriesGivesWhatItsOwnFileGives) {
   const ToolResult localiser = segment("exam", {"--series", other});
   EXPECT_EQ(localiser.exit_code, 2);
   EXPECT_EQ(localiser.error_lines(), 1) << localiser.err;
+}
+
+TEST_F(SegmentFolder, RemarksOnTheSecondScanAreSaid) {
+  write_text(folder_ / "exam/ps.dcm", DatasetBuilder()
+                                          .text(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.11.1")
+                                          .text(0x00080018, "UI", "2.25.3")
+                                          .file());
+  const ToolResult result = segment("t1.nrrd", {"--also", "exam", "--report", "r.json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(read_text(folder_ / "r.json").find("presentation state"), std::string::npos);
 }
 
 TEST_F(SegmentFolder, ANameOfAnotherFormatGivesThatFormat) {

@@ -61,6 +61,50 @@ TEST(Segmentations, RoundTripKeepsTissuesAndWhatTagsHold) {
   EXPECT_EQ(whole.chest_wall_confidence, labels.chest_wall_confidence);
 }
 
+// A segment that was deleted and added again, and the names of other programs.
+TEST(Segmentations, PresetsKnowTheValuesAndNamesOfOtherPrograms) {
+  const auto tissue = [](const std::string& name, const std::vector<std::string>& codes) {
+    const std::vector<Segment> segments = {{name, 7, {}, {}}};
+    return codes_of(segments, parse_tissue_codes(codes), "x").values.at(7);
+  };
+  EXPECT_EQ(tissue("Chest wall_1", {}), Tissue::muscle);
+  EXPECT_EQ(tissue("Dense_2", {"duke-fgt"}), Tissue::fibroglandular);
+  EXPECT_EQ(tissue("skeletal_muscle", {"totalsegmentator-tissues"}), Tissue::muscle);
+  EXPECT_EQ(tissue("pectoralis_minor", {"totalsegmentator-muscles"}), Tissue::muscle);
+  EXPECT_EQ(tissue("Skin", {"duke-fgt"}), Tissue::skin);                 // its own name
+  EXPECT_EQ(tissue("Dense", {"duke-fgt", "7=tumour"}), Tissue::tumour);  // the user's word
+  EXPECT_THROW(tissue("Dense", {"totalsegmentator-tissues"}), Error);    // another program's
+  Volume<float> volume;
+  volume.grid.size = {4, 1, 1};
+  volume.voxels = {0, 1, 3, 9};
+  const TissueCodes codes = parse_tissue_codes({"totalsegmentator-tissues", "9=tumour"});
+  const std::vector<std::uint8_t> expected = {std::uint8_t(Tissue::air), std::uint8_t(Tissue::fat),
+                                              std::uint8_t(Tissue::muscle),
+                                              std::uint8_t(Tissue::tumour)};
+  EXPECT_EQ(translate_labels(volume, codes, "x").tissue, expected);
+  volume.voxels = {0, 0, 70, 70};
+  EXPECT_THROW(translate_labels(volume, codes, "x"), Error);
+}
+
+TEST(Segmentations, APresetMayBeATableOfTheUser) {
+  const ScratchFolder folder;
+  const std::string file = (folder / "mine.tsv").string();
+  write_text(file, "value\tname\ttissue\n5\tParenchyma\tfibroglandular\n-\tRibs\twall\n");
+  const CodePreset preset = load_code_preset(file);
+  EXPECT_EQ(preset.values.at(5), Tissue::fibroglandular);
+  EXPECT_EQ(preset.names.at("ribs"), Tissue::muscle);
+  for (const char* row : {"5\tx\tbone", "5.5\tx\tfat", "-1\tx\tfat"}) {
+    write_text(file, std::string("value\tname\ttissue\n") + row + "\n");
+    EXPECT_THROW(load_code_preset(file), Error) << row;
+  }
+  try {
+    load_code_preset("duke-fgd");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("duke-fgt"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Segmentations, SegmentsAreKnownByTagNameOrCode) {
   const auto tissue = [](const std::string& name, const TissueCodes& codes) {
     return codes_of({{name, 7, {}, {}}}, codes, "x.seg.nrrd").values.at(7);
