@@ -7,7 +7,9 @@ import unittest
 from pathlib import Path
 from types import SimpleNamespace
 
+import numpy as np
 import small_run
+from breast.command.assumed import Series, series_of, side_of, tumour_beside, tumour_position
 from breast.command.commands import unknown_command
 from breast.command.make_name import name_for_make, plain_for_make, plain_name
 from breast.command.request import parse_request
@@ -92,7 +94,7 @@ class Requests(unittest.TestCase):
             os.chdir(folder)
             touch("A=b.nrrd")
             r = parse_request("run", ["A=b.nrrd", "--side", "right", "TUMOUR=-60,-40,12", "--runs", "/data", "REDUCTION=40", "--jobs", "2"])
-        self.assertEqual((r.scan, r.side, r.runs, r.jobs, r.target), ("A=b.nrrd", "right", "/data", 2, "summary"))
+        self.assertEqual((r.scan, r.side, r.runs, r.jobs, r.target), ("A=b.nrrd", "right", "/data", 2, "summary page"))
         self.assertEqual(r.settings, {"REDUCTION": "40", "TUMOUR": "-60,-40,12"})
         self.assertEqual(parse_request("demo", ["PRESET=paper"]).settings, {"PRESET": "paper"})
         self.assertEqual(parse_request("cohort", ["patients"]).target, "cohort")
@@ -102,8 +104,7 @@ class Requests(unittest.TestCase):
         self.assertEqual((r.scan, r.side, r.target, r.settings), ("scan", "left", "page", {"REDUCTION": "40"}))
         r = parse_request("page", ["PRESET=slim"])
         self.assertEqual((r.scan, r.target, r.settings), ("", "page", {"PRESET": "slim"}))
-        with self.assertRaisesRegex(BreastError, "--side left"):
-            parse_request("page", ["scan"])
+        self.assertEqual(parse_request("page", ["scan"]).side, "")
 
     def test_of_a_cluster(self):
         r = parse_request("cohort", ["patients", "--slurm", "--partition", "long", "--time", "2:00:00", "--cores", "2", "--memory", "900",
@@ -115,7 +116,8 @@ class Requests(unittest.TestCase):
 
     def test_what_is_wrong_is_said(self):
         for words, said in (
-                ("run scan", "--side left|right is missing"),
+                ("run scan CASE=a", "--side left|right is missing: CASE is of one breast"),
+                ("run scan --target ''", "not the name of a target"),
                 ("run --side left", "SCAN is missing"),
                 ("run scan --side lefft", "did you mean 'left'"),
                 ("run scan --sid left", "did you mean '--side'"),
@@ -144,6 +146,49 @@ class Requests(unittest.TestCase):
         self.assertEqual(unknown_command(here, "segmnt"), "'segmnt' is neither a command nor a tool; did you mean 'segment'?")
         self.assertIn("'demo'", unknown_command(here, "dem"))
         self.assertIn("`breast help` lists them", unknown_command(here, "xyzzy"))
+
+
+class Assumed(unittest.TestCase):
+    """What is found beside a scan."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(folder.name)
+
+    def test_the_tumour_is_found_by_the_name_of_the_scan(self):
+        for name in ("a.nrrd", "a-tumour-x.nrrd", "ab-tumour.nrrd", "tumour.nrrd", "a.nrrd-tumour.nrrd"):
+            touch(name)
+        self.assertEqual(tumour_beside("a.nrrd"), {})
+        touch("a-tumour.mrk.json")
+        touch("a-tumor-left.nii.gz")
+        for scan in ("a.nrrd", "./a.nrrd"):
+            self.assertEqual({side: os.path.normpath(file) for side, file in tumour_beside(scan).items()},
+                             {"": "a-tumour.mrk.json", "left": "a-tumor-left.nii.gz"})
+        touch("a-tumour.tsv")
+        with self.assertRaisesRegex(BreastError, "both name the tumour"):
+            tumour_beside("a.nrrd")
+        os.makedirs("export.1/S1")
+        touch("export.1-tumour.seg.nrrd")
+        self.assertEqual(tumour_beside("export.1/"), {"": "export.1-tumour.seg.nrrd"})
+
+    def test_the_tumour_belongs_to_the_nearer_nipple(self):
+        nipples = {"left": np.array([90.0, -60, 0]), "right": np.array([-90.0, -60, 0])}
+        Path("points.tsv").write_text("x_mm\ty_mm\tz_mm\n-50\t-20\t3\n")
+        Path("points.fcsv").write_text("# Markups fiducial file version = 4.11\n# CoordinateSystem = RAS\n"
+                                       "# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID\n"
+                                       "1,50,20,3,0,0,0,1,1,1,0,tumour,,\n")
+        for given, side in (("40,-20,0:5", "left"), ("points.tsv", "right"), ("points.fcsv", "right")):
+            self.assertEqual(side_of(tumour_position(given), nipples), side, given)
+        with self.assertRaisesRegex(BreastError, "neither"):
+            tumour_position("40,-20")
+
+    def test_a_folder_that_is_refused_shows_both_sides(self):
+        os.makedirs("export")
+        touch("export/notes.txt")
+        tools = SimpleNamespace(tool=lambda name: str(small_run.programs / name))
+        self.assertEqual(series_of(tools, "export"), Series(("left", "right")))
 
 
 class Programs(unittest.TestCase):

@@ -104,6 +104,11 @@ planned "runs/series_1-right/labels.vtkhdf" breast run "series 1/" --side right 
 planned "runs/series_1-right/labels.vtkhdf" breast run "$PWD/series 1" --side right --dry-run
 (cd sub && planned "../runs/scan-left/labels.vtkhdf" breast run ../scan.nrrd --side left --runs ../runs --dry-run)
 (cd / && planned "$work/elsewhere/scan-left/labels.vtkhdf" breast run "$work/my cases/scan.nrrd" --side left --runs "$work/elsewhere" --dry-run)
+planned "runs/scan-left/labels.vtkhdf" breast run scan.nrrd --dry-run
+planned "runs/scan-right/labels.vtkhdf" breast run scan.nrrd --dry-run
+printf 'x_mm\ty_mm\tz_mm\n-60\t-40\t12\n' > scan-tumour.tsv
+planned "--tumour scan-tumour.tsv" breast run scan.nrrd --side right --dry-run
+rm scan-tumour.tsv
 touch "a wall.nrrd"
 planned "a_wall.nrrd" breast run scan.nrrd --side left "CHEST_WALL=a wall.nrrd" --dry-run
 printf 'MR = scan.nrrd\n' > "series 1/one.case"
@@ -113,7 +118,7 @@ said "#SBATCH --partition=long" breast cohort "series 1" --slurm --partition lon
 pass "runs are planned from any folder, for scans of any name, with the installed tools"
 
 refused "'missing.nrrd' does not exist" breast run missing.nrrd --side left
-refused "--side left|right is missing" breast run scan.nrrd
+refused "--side left|right is missing" breast run scan.nrrd CASE=one
 refused "did you mean SIDE?" breast run scan.nrrd --side left SIDES=left
 refused "did you mean seed2008?" breast run scan.nrrd --side left MATERIALS=seed208
 refused "'wall.nrrd'" breast run scan.nrrd --side left CHEST_WALL=wall.nrrd

@@ -34,7 +34,7 @@ def overview(installation: Installation) -> str:
             f"\nTools:\n{_aligned(installation.tools, '  ')}"
             "\nThe chain, which `run` makes: segment, fit-hermite, hexmesh, backward, forward, compress (CC, MLO), project-mammogram, "
             "cc2mlo.\n"
-            "\nExamples:\n  breast demo\n  breast run scan.nrrd --side left TUMOUR=-60,-40,12\n  breast help compress\n"
+            "\nExamples:\n  breast demo\n  breast run scan.nrrd\n  breast help compress\n"
             f"\nDocumentation: {installation.documentation}; manual pages: man breast, man breast-compress\n")
 
 

@@ -20,7 +20,7 @@ _PATH_SETTINGS = ("CHEST_WALL", "MATERIALS", "TUMOUR", "CASE_FILE", "STUDY", "SE
                   "COMPRESS", "PROJECT", "CC2MLO")
 
 
-def _settings_for_make(r: PipelineRequest, runs: str) -> list[str]:
+def settings_for_make(r: PipelineRequest, runs: str) -> list[str]:
     """Every setting in the form that make accepts, with links where the name of a file needs one."""
     links = Path(runs) / ".names"
     words = [f"RUNS={runs}"]
@@ -73,17 +73,23 @@ def _make_file(installation: Installation) -> str:
     return name
 
 
-def _make_and_show(words: Sequence[str], run: str) -> int:
-    """Runs the stages and says where the results are, or where to look if a stage failed."""
+def make_run(words: Sequence[str], run: str) -> int:
+    """Runs the stages; says where to look if one failed. Returns 0, 1, or 128 plus a signal."""
     code = run_child(words)
-    if code != 0:
-        sys.stderr.write(f"breast: stopped; what the stages said is in {run}/log.txt, finished results are in {run}, and the same command "
-                         "continues from there\n")
-        return code if code > 128 else 1
-    print(f"Results: {run}/page.html" if words[-1] == "page" else f"Results: {run}")
-    if words[-1] == "summary":
-        print("More: the same command with --target report (one page for reading and printing), page (both views, interactive) or slicer")
-    return 0
+    if code == 0:
+        return 0
+    sys.stderr.write(f"breast: stopped; what the stages said is in {run}/log.txt, finished results are in {run}, and the same command "
+                     "continues from there\n")
+    return code if code > 128 else 1
+
+
+def show_results(targets: Sequence[str], run: str) -> None:
+    """Where the results are; the last line is the page, if there is one."""
+    print(f"Results: {run}")
+    if "summary" in targets:
+        print("More: the same command with --target report (one page for reading and printing) or slicer")
+    if "page" in targets:
+        print(f"Page: {run}/page.html")
 
 
 def pipeline_settings(installation: Installation) -> list[str]:
@@ -127,7 +133,7 @@ def settings_help(installation: Installation) -> str:
     text = read_text(os.path.join(installation.pipelines, "help.txt"))
     if not installation.is_package:
         return text
-    out = ("breast run SCAN --side left|right [--target TARGET] [SETTING=VALUE]...\n"
+    out = ("breast run SCAN [--side left|right] [--target TARGET] [SETTING=VALUE]...\n"
            "breast demo [--target TARGET] [SETTING=VALUE]...                minutes are for 2 cores\n")
     source = False
     for line in text.splitlines()[1:]:
@@ -138,8 +144,14 @@ def settings_help(installation: Installation) -> str:
     return out
 
 
+def asked_of_make(installation: Installation, r: PipelineRequest) -> tuple[list[str], str, str]:
+    """The words that make is called with, without targets; the folder of the results; and the plan. Raises BreastError if make refuses."""
+    make = ["make", "-f", _make_file(installation), *settings_for_make(r, folder_for_make(r.runs, "--runs"))]
+    return make, _ask([*make, "-s", "where"]).removesuffix("\n"), _ask([*make, "-n", *r.target.split()])
+
+
 def run_pipeline(installation: Installation, command: str, arguments: Sequence[str]) -> int:
-    """Runs `breast COMMAND arguments` (run, demo or cohort).
+    """Runs `breast COMMAND arguments` (run, demo, page or cohort).
 
     Everything that can be refused is refused first; then make runs in the present folder, and the location of the results is printed.
     Returns 0, 1 if a stage failed, or 128 + the signal that ended make; raises BreastError.
@@ -147,13 +159,18 @@ def run_pipeline(installation: Installation, command: str, arguments: Sequence[s
     request = parse_request(command, arguments)
     if request.scan and not os.path.exists(request.scan):
         raise BreastError(f"'{request.scan}' does not exist")
-    make = ["make", "-f", _make_file(installation), *_settings_for_make(request, folder_for_make(request.runs, "--runs"))]
-    run = _ask([*make, "-s", "where"]).removesuffix("\n")
-    plan = _ask([*make, "-n", request.target])
+    if request.of_scan:
+        from .scan_run import run_scan
+        return run_scan(installation, request)
+    make, run, plan = asked_of_make(installation, request)
+    targets = request.target.split()
     if request.plan:
         sys.stdout.write(_ask([*make, "-s", "cohort-script"]) if request.slurm else plan)
         return 0
     sys.stdout.flush()
     if request.slurm:
-        return 0 if run_child([*make, "-s", request.target]) == 0 else 1
-    return _make_and_show([*make, f"-j{request.jobs}", request.target], run)
+        return 0 if run_child([*make, "-s", *targets]) == 0 else 1
+    code = make_run([*make, f"-j{request.jobs}", *targets], run)
+    if code == 0:
+        show_results(targets, run)
+    return code

@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from ..errors import BreastError, Failed
+from .assumed import SIDES, TUMOUR_RULE
 from .commands import COMMANDS, SUMMARY
 from .declaration import Argument, Declaration
 from .parse import Tokens, assign, tokenize
@@ -17,7 +18,8 @@ _SETTING = re.compile(r"[A-Z_0-9]+=.*", re.DOTALL)
 
 @dataclass
 class PipelineRequest:
-    """command: run, demo, page or cohort; scan: for run a file or folder, for cohort the folder of case files; side: left, right, or empty;
+    """command: run, demo, page or cohort; scan: for run a file or folder, for cohort the folder of case files; side: left, right, or empty
+    for those that the scan shows;
     plan: only print the commands; slurm, local: for cohort a job array, or processes on this machine; settings: given as SETTING=value.
     """
 
@@ -31,6 +33,11 @@ class PipelineRequest:
     slurm: bool = False
     local: bool = False
     settings: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def of_scan(self) -> bool:
+        """Whether it is about one scan of a patient."""
+        return self.command == "run" or (self.command == "page" and self.scan != "")
 
 
 def _into(request: PipelineRequest, name: str, convert: Callable[[str], object] = str) -> Callable[[list[str]], None]:
@@ -50,24 +57,31 @@ def _case_options(d: Declaration, r: PipelineRequest) -> None:
     # Of one case, two stages can run side by side most of the time, such as the compressions in both views.
     r.jobs = 2
     _options(d, r, "number of stages that may run at the same time; they share the cores")
-    d.options.append(Argument("text", ("--target",), "NAME", "target to make: chain, figures, summary, page, report or another target of "
-                              "the pipeline (breast help settings)", r.target, store=_into(r, "target")))
+    d.options.append(Argument("text", ("--target",), "NAME", "what to make: chain, figures, summary, page, report or another target of "
+                              "the pipeline (breast help settings); several are separated by blanks", r.target, store=_into(r, "target")))
 
 
 def _declare_run(d: Declaration, r: PipelineRequest) -> None:
     d.paragraphs += [
         "Runs the pipeline on a scan: segment, fit-hermite, hexmesh, backward, forward, compress in both views, project-mammogram, the "
-        "matching of both views, and the figures. Stages whose inputs and settings are unchanged are not run again.",
+        "matching of both views, the figures and the page. Stages whose inputs and settings are unchanged are not run again.",
+        "Nothing but the scan must be given. Without --side, both breasts are modelled; one that the scan does not show is left out. Of a "
+        "DICOM folder the best series is taken (`breast help scan` has the rule), and a water image is read with the fat image of the same "
+        f"size. A file of the tumour is found beside the scan by its name: {TUMOUR_RULE}. If both breasts are modelled, the tumour "
+        "belongs to the one whose nipple is nearer. The command prints what it assumed and how to change it, and ends with the path of "
+        "the page.",
         "Settings of the form SETTING=value may follow the scan, such as TUMOUR=x,y,z, REDUCTION=40, CHEST_WALL=labels.nrrd or "
         "MATERIALS=wellman; `breast help settings` lists them. File names are relative to the current folder. A scan, or a file in a "
         "setting, whose name make cannot handle (blanks, quotes, brackets, ...) is accessed through a link with a plain name in "
         "DIR/.names; the name of the run's folder has underscores in place of such characters."]
     d.positionals.append(Argument("text", (), "SCAN", "T1-weighted MR without fat saturation, patient prone: NRRD, NIfTI, MetaImage or a "
                                   "DICOM folder", required=True, store=_into(r, "scan")))
-    d.options.append(Argument("choice", ("--side",), "NAME", "breast to model: the patient's left or right", choices=("left", "right"),
-                              store=_into(r, "side")))
+    d.options.append(Argument("choice", ("--side",), "NAME", "breast to model: the patient's left or right (default: both, if the scan "
+                              "shows both)", choices=SIDES, store=_into(r, "side")))
+    r.target = "summary page"
     _case_options(d, r)
-    d.examples += [("breast run scan.nrrd --side left", "results in ./runs/scan-left"),
+    d.examples += [("breast run scan.nrrd", "results in ./runs/scan-left and ./runs/scan-right, each with page.html"),
+                   ("breast run scan.nrrd --side left", "results in ./runs/scan-left"),
                    ("breast run 'my scans/patient 1' --side right TUMOUR=-60,-40,12 --runs /data/runs",
                     "a DICOM folder, and a tumour to follow")]
 
@@ -143,7 +157,7 @@ def pipeline_command(name: str) -> Declaration:
         d.paragraphs = ["Runs the pipeline as `breast run` does on a scan, or as `breast demo` if none is given, as far as the page RUN/page.html: "
                         "pointing at a place in one view shows the curve on which it lies in the other, with its band."]
         d.examples = [("breast page", "runs/average/page.html"),
-                      ("breast page scan.nrrd --side left", "runs/scan-left/page.html")]
+                      ("breast page scan.nrrd --side left", "runs/scan-left/page.html, without the figures")]
     d.positionals.append(Argument("text", (), "[SETTING=value]", "a setting of the pipeline: `breast help settings` lists them",
                                   repeatable=True))
     return d
@@ -155,7 +169,7 @@ def breast_declaration() -> Declaration:
     d.paragraphs += [
         "`breast TOOL` runs a tool of libbreast with its arguments, as in `breast segment scan.nrrd labels.vtkhdf --side left`. Each tool "
         "has a manual page, breast-TOOL. `breast list` lists them, `breast help TOOL` prints the help of one.",
-        "`breast run SCAN --side left|right [SETTING=value]...` runs the whole chain on a scan, `breast demo` on a simulated breast, "
+        "`breast run SCAN [SETTING=value]...` runs the whole chain on a scan, `breast demo` on a simulated breast, "
         "`breast cohort DIR` on every case file of a folder. They work from any folder; results are written to ./runs or to the folder "
         "given by --runs."]
     d.positionals += [Argument("text", (), "COMMAND", "run, demo, page, cohort, list, help, or the name of a tool"),
@@ -165,7 +179,7 @@ def breast_declaration() -> Declaration:
             d.options.append(option)
     d.options += [Argument("flag", ("--help",), "", "the commands and tools"), Argument("flag", ("--version",), "", "name and version")]
     d.examples += [("breast demo", "the whole chain on a simulated breast; results in ./runs/average"),
-                   ("breast run scan.nrrd --side left", "the whole chain on a scan; results in ./runs/scan-left"),
+                   ("breast run scan.nrrd", "the whole chain on a scan; results in ./runs/scan-left and ./runs/scan-right"),
                    ("breast help compress", "the help of a tool"),
                    ("breast help TUMOUR", "what a setting does")]
     return d
@@ -194,8 +208,10 @@ def _check(r: PipelineRequest) -> None:
         raise BreastError(f"{scan} is not a setting here: " +
                           ("breast run SCAN is for scans" if r.command == "demo" else "it is the first argument"))
     side = r.settings.get("SIDE")
-    if (r.command == "run" or r.scan and r.command == "page") and not r.side and side is None:
-        raise BreastError("--side left|right is missing: which breast of the patient is it?")
+    if r.of_scan and not r.side and side is None:
+        one = next((name for name in ("CASE", "CASE_FILE") if name in r.settings), "")
+        if one:
+            raise BreastError(f"--side left|right is missing: {one} is of one breast; which one of the patient is it?")
     if r.side and side is not None and side != r.side:
         raise BreastError(f"--side {r.side} and SIDE={side} contradict each other")
     if r.slurm and r.local:
@@ -205,7 +221,7 @@ def _check(r: PipelineRequest) -> None:
         raise BreastError(f"{cluster}: is a request to Slurm; give --slurm")
     if r.slurm and r.jobs != 1:
         raise BreastError("--jobs: is for runs on this machine; with --slurm give --cores")
-    if not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9-]*", r.target):
+    if not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9-]*( [A-Za-z0-9][A-Za-z0-9-]*)*", r.target):
         raise BreastError(f"--target '{r.target}': is not the name of a target")
 
 
