@@ -3,7 +3,7 @@
 # phantom's landmarks compared with their true positions (made by the target `truth`, which takes many minutes).
 BAND_STATES := cc mlo truth-cc truth-mlo
 $(BAND_STATES:%=$(RUN)/%-sensitivity.vtkhdf): $(RUN)/%-sensitivity.vtkhdf: $(RUN)/%.vtkhdf $(RUN)/reference.vtkhdf $(SENSITIVITY)
-	$(call staged,$(RUN)/.$*-sensitivity.settings,$(SENSITIVITY) $(PRONE) $(MECHANICS) $(SUPPORT),$(if $(filter cc mlo,$*),--of $<)) $(SENSITIVITY) $(RUN)/reference.vtkhdf $< $@ $(PRONE) $(MECHANICS) $(SUPPORT) \
+	$(call staged,$(RUN)/.$*-sensitivity.settings,$(SENSITIVITY) $(PRONE) $(MECHANICS) $(SUPPORT),$(if $(filter cc mlo,$*),--of $< --spared $@)) $(SENSITIVITY) $(RUN)/reference.vtkhdf $< $@ $(PRONE) $(MECHANICS) $(SUPPORT) \
 	  --table $(basename $@).tsv $(common)
 
 # If the material set contains uncertainties, they replace the priors of softness and supports.

@@ -3,25 +3,28 @@
 
 # ---- pointing at either view draws curve, band and arc in the other -----------------------------------------
 page_options := $(or $(SERIES),0) $(filter no,$(PAGE_SCAN))
-# With friction or a wall on springs there are no derivatives yet: the page then shows curves without bands.
-derivatives := $(if $(findstring --friction,$(COMPRESS_OPTIONS))$(findstring spring:,$(COMPRESS_OPTIONS)),,-sensitivity)
-page_states := $(RUN)/cc$(derivatives).vtkhdf $(RUN)/mlo$(derivatives).vtkhdf
-lookup_settings := $(MATCH_LOOKUP) $(page_states)
-$(RUN)/lookup.h5: $(page_states) $(MATCH_LOOKUP) $(call changed,lookup)
-	$(call of_pressed,lookup) $(MATCH_LOOKUP) $(page_states) $@ --both-ways --pitch 1 $(common)
+# Where one of the compressions has no derivatives (augmented Lagrangian, an unstable equilibrium), the page shows curves without bands.
+both_views := $(addprefix $(RUN)/,cc.vtkhdf mlo.vtkhdf)
+derivatives := $(both_views:%.vtkhdf=%-sensitivity.vtkhdf)
+page_states = $$(if ls $(derivatives) > /dev/null 2>&1; then echo $(derivatives); else echo $(both_views); fi)
+of_both_views = $(call staged,$(call record_file,$1),$($1_settings),--of '$(both_views)')
+lookup_settings := $(MATCH_LOOKUP)
+$(RUN)/lookup.h5: $(both_views) $(derivatives) $(MATCH_LOOKUP) $(call changed,lookup)
+	$(call of_both_views,lookup) $(MATCH_LOOKUP) $(page_states) $@ --both-ways --pitch 1 $(common)
 # The patient's own mammograms as they are hung, and where the simulated views lie in them. cc2mlo asks for some point.
 ifneq ($(MAMMOGRAMS),)
 mammograms := $(subst $(comma), ,$(MAMMOGRAMS))
 of_patient := $(addprefix $(RUN)/patient,.json -cc.png -mlo.png)
-patient_settings := $(CC2MLO) $(page_states) $(call named,$(firstword $(mammograms))) $(call named,$(lastword $(mammograms))) $(content_MAMMOGRAMS)
-$(of_patient) &: $(page_states) $(CC2MLO) $(call changed,patient)
-	$(call of_pressed,patient) $(CC2MLO) $(page_states) $(RUN)/patient.vtp --grid 1 --table $(RUN)/patient.tsv --cc-image $(firstword $(mammograms)) \
+patient_settings := $(CC2MLO) $(call named,$(firstword $(mammograms))) $(call named,$(lastword $(mammograms))) $(content_MAMMOGRAMS)
+$(of_patient) &: $(both_views) $(mammograms) $(CC2MLO) $(call changed,patient)
+	$(call of_both_views,patient) $(CC2MLO) $(both_views) $(RUN)/patient.vtp --grid 1 --table $(RUN)/patient.tsv --cc-image $(firstword $(mammograms)) \
 	  --mlo-image $(lastword $(mammograms)) --cc-hung $(RUN)/patient-cc.png --mlo-hung $(RUN)/patient-mlo.png --report $(RUN)/patient.json $(share)
 endif
-# The page is also made of what there is when the plates do not hold the breast: it says so.
-shown_states := $(wildcard $(addprefix $(F)/,supine-states.png cc-states.png mlo-states.png))
-page_settings := $(TABULATE) $(call named,$(MR)) $(page_options) $(of_patient) $(shown_states)
-$(RUN)/page.html: $(RUN)/lookup.h5 $(addprefix $(RUN)/,cc.vti mlo.vti labels.vtkhdf mesh.vtkhdf) $(of_patient) $(shown_states) $(MR_FILES) $(TABULATE) $(call changed,page)
+# The page is also made of what there is when the plates do not hold the breast: it says so. Animated pictures that `states` has made are
+# shown; as prerequisites their equilibria would be solved again, so that the page records them and their dates instead.
+shown_states = $(foreach file,$(wildcard $(addprefix $(F)/,supine-states.png cc-states.png mlo-states.png)),$(file) $(shell stat -c %Y $(file)))
+page_settings = $(TABULATE) $(call named,$(MR)) $(page_options) $(of_patient) $(shown_states)
+$(RUN)/page.html: $(RUN)/lookup.h5 $(addprefix $(RUN)/,cc.vti mlo.vti labels.vtkhdf mesh.vtkhdf) $(of_patient) $(MR_FILES) $(TABULATE) $(call changed,page)
 	@$(if $(of_patient),,rm -f $(addprefix $(RUN)/patient,.json .vtp .tsv -cc.png -mlo.png))
 	$(call prints,page,$@) $(tabulate) page $(RUN) $(MR) $(page_options)
 page: $(RUN)/page.html

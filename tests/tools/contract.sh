@@ -184,4 +184,13 @@ rm "$work/loose"
 made FORCE=90
 [ -e "$run/mlo.vti" ] && [ -e "$run/curve.tsv" ] || fail "other plates grip"
 pass "a view without a grip is kept and said, and nothing is made of it"
+
+# A shape without derivatives has a page without bands.
+grep -q "^$run/cc-sensitivity.vtkhdf $run/mlo-sensitivity.vtkhdf $run/lookup.h5 " "$run/lookup.h5" || fail "curves have bands"
+touch "$work/break-sensitivity"
+made FORCE=95
+grep -q '^sensitivity CC  .*left out: no body of this shape' "$work/err" && [ ! -e "$run/cc-sensitivity.vtkhdf" ] || fail "derivatives that cannot be had are left out"
+grep -q "^$run/cc.vtkhdf $run/mlo.vtkhdf $run/lookup.h5 " "$run/lookup.h5" && [ -s "$run/page.html" ] || fail "and the page has curves without bands"
+rm "$work/break-sensitivity"
+pass "derivatives that cannot be had are left out"
 echo "$passed passed, 0 failed"

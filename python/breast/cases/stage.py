@@ -94,7 +94,7 @@ class _Screen:
 
 
 def run_stage(record: Path, settings: str, words: Sequence[str], prints: Path | None = None, keep: Path | None = None,
-              compressions: Sequence[Path] = ()) -> None:
+              compressions: Sequence[Path] = (), spared: Path | None = None) -> None:
     """Runs the program of a stage and records its settings when it has succeeded.
 
     The record goes before the program starts: a stage that is stopped has none and is run again, whatever the settings then are.
@@ -106,6 +106,7 @@ def run_stage(record: Path, settings: str, words: Sequence[str], prints: Path | 
         keep: the shape that `compress` writes, which is kept even if the plates do not grip the breast.
         compressions: files made of compressed shapes, or these themselves. If one is not there, or is no compression, the program is not
             run, which is said and is no failure.
+        spared: a file that the program writes and that what follows can do without: a failure is said, and leaves neither file nor record.
 
     Raises:
         Failed: the program failed; how it ended and where to look has been said, and the exit code is that of the program.
@@ -131,6 +132,9 @@ def run_stage(record: Path, settings: str, words: Sequence[str], prints: Path | 
         if prints and part and code == 0:
             part.replace(prints)
     kept = keep is not None and code == NOT_CONVERGED and keep.exists()
+    if code != 0 and spared is not None:
+        spared.unlink(missing_ok=True)
+        return screen.end(f"{label:28} left out: {next(filter(None, reversed(said)), f'exit code {code}')}", bad=True)
     if code != 0 and not kept:
         screen.end(next(filter(None, reversed(said)), label))
         screen.end(f"{label} ended with exit code {code} after {screen.seconds()} s: see {log}")

@@ -95,8 +95,8 @@ def _record(words: list[str], run: Run) -> None:
 
 def _stage(words: list[str], run: Run) -> None:
     from .stage import run_stage
-    prints, keep = (Path(file) if file else None for file in (run.args.prints, run.args.keep))
-    run_stage(Path(words[0]), words[1], words[2:], prints, keep, list(map(Path, run.args.of.split())))
+    prints, keep, spared = (Path(file) if file else None for file in (run.args.prints, run.args.keep, run.args.spared))
+    run_stage(Path(words[0]), words[1], words[2:], prints, keep, list(map(Path, run.args.of.split())), spared)
 
 
 def _gripped(words: list[str], run: Run) -> None:
@@ -208,6 +208,7 @@ def _declared() -> Tool:
     tool.words("ARGUMENT", "arguments of the action: files, folders and names")
     tool.text("--prints", "FILE", "of `stage`: the file that gets what the program prints; its messages alone are then in the log")
     tool.text("--keep", "FILE", "of `stage`: the shape of compress, which is kept even if the plates do not grip the breast")
+    tool.text("--spared", "FILE", "of `stage`: what the program writes, which is left out if the program fails")
     tool.text("--of", "'FILE...'", "of `stage`: compressed shapes, or files made of them, without which the stage is not run")
     tool.text("--partition", "NAME", "partition of the cluster")
     tool.text("--account", "NAME", "account to be charged")
