@@ -134,7 +134,8 @@ def run_stage(record: Path, settings: str, words: Sequence[str], prints: Path | 
     kept = keep is not None and code == NOT_CONVERGED and keep.exists()
     if code != 0 and spared is not None:
         spared.unlink(missing_ok=True)
-        return screen.end(f"{label:28} left out: {next(filter(None, reversed(said)), f'exit code {code}')}", bad=True)
+        reason = next(filter(None, reversed(said)), f"exit code {code}").removeprefix(f"{Path(words[0]).name}: ")
+        return screen.end(f"{label:28} left out: {reason}", bad=True)
     if code != 0 and not kept:
         screen.end(next(filter(None, reversed(said)), label))
         screen.end(f"{label} ended with exit code {code} after {screen.seconds()} s: see {log}")
