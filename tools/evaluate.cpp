@@ -30,7 +30,7 @@ bool is_surface(const std::filesystem::path& file) {
 /// `volume` (may be null) receives a volume of another program unchanged.
 LabelVolume read_any_labels(const std::filesystem::path& file, const TissueCodes& codes,
                             Volume<float>* volume) {
-  if (file.extension() == ".vtkhdf" || is_segmentation_name(file)) return read_tissues(file, codes);
+  if (file.extension() == ".vtkhdf" || is_segmentation_file(file)) return read_tissues(file, codes);
   VolumeSource source;
   const Volume<float> foreign = read_volume(file, 0, &source);
   if (volume != nullptr) *volume = foreign;

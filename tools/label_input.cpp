@@ -45,7 +45,7 @@ struct ForeignLabels {
 
 ForeignLabels foreign_labels(const fs::path& file, const LabelChoices& choices) {
   std::optional<Side> side = side_of(choices);
-  if (!is_segmentation_name(file)) return {coded_labels(file, choices), side.has_value()};
+  if (!is_segmentation_file(file)) return {coded_labels(file, choices), side.has_value()};
   const SegmentedVolume segmentation = read_segmentation(file);
   if (!side) side = tagged_side(segmentation.segments);
   const bool states_side = side.has_value();
@@ -77,7 +77,7 @@ void declare_label_choices(Tool& tool, const std::string& name, LabelChoices& ch
 LabelVolume read_tissues(const fs::path& file, const TissueCodes& codes) {
   if (is_native(file)) return read_labels(file);
   LabelVolume labels;
-  if (is_segmentation_name(file)) {
+  if (is_segmentation_file(file)) {
     const SegmentedVolume segmentation = read_segmentation(file);
     labels = translate_labels(segmentation.values,
                               codes_of(segmentation.segments, codes, file.string()), file.string());

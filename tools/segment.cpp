@@ -173,7 +173,7 @@ bool holds_points(const std::filesystem::path& file) {
 /// Muscle is the chest wall; a map without muscle is refused before the scan is read.
 LabelVolume read_wall_labels(const std::filesystem::path& file, const TissueCodes& codes) {
   LabelVolume labels;
-  if (codes.empty() && file.extension() != ".vtkhdf" && !is_segmentation_name(file)) {
+  if (codes.empty() && file.extension() != ".vtkhdf" && !is_segmentation_file(file)) {
     // Only the code of the chest wall matters: a map may have other codes of its own.
     TissueCodes wall;
     wall.values[int(Tissue::muscle)] = Tissue::muscle;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Segmentations of 3D Slicer (.seg.nrrd): label volumes whose header names the segment of every
-// value.
+// Label volumes whose header names the segment of every value: segmentations of 3D Slicer (.seg.nrrd) and
+// DICOM Segmentation objects.
 #pragma once
 
 #include <filesystem>
@@ -9,11 +9,11 @@
 
 namespace breast {
 
-/// True for .seg.nrrd and .seg.nhdr, in any case.
-bool is_segmentation_name(const std::filesystem::path& file);
+/// True for .seg.nrrd and .seg.nhdr, in any case, and for DICOM Segmentation objects of any name.
+bool is_segmentation_file(const std::filesystem::path& file);
 
-/// Throws Error (input) as read_volume, for a header without segments, and for overlapping
-/// segments, which are stored in several layers.
+/// Throws Error (input) as read_volume and read_dicom_segmentation, for a header without segments, and for
+/// overlapping segments, which 3D Slicer stores in several layers.
 SegmentedVolume read_segmentation(const std::filesystem::path& file);
 
 /// Writes the tissues that occur, with names, colours and tags (segments_of), in LPS and

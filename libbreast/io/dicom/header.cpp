@@ -28,13 +28,15 @@ namespace fs = std::filesystem;
 constexpr std::uint32_t pixel_data = 0x7fe00010, per_frame_groups = 0x52009230;
 // Sequences whose elements are kept: the codes of a mammogram's view and, within it, of the view's
 // modifiers (PS3.3 C.8.11.7); the functional groups of an enhanced object (C.7.6.16) and those of its
-// place, pixels, time, kind and contrast.
-constexpr std::array<std::uint32_t, 15> kept_sequences{
-    0x00540220, 0x00540222, 0x52009229, 0x52009230, 0x00209113, 0x00209116, 0x00289110, 0x00289145,
-    0x00209111, 0x00189226, 0x00189114, 0x00189112, 0x00189115, 0x00189117, 0x00209071};
+// place, pixels, time, kind and contrast; the segments of a segmentation, and that of a frame (C.8.20).
+constexpr std::array<std::uint32_t, 17> kept_sequences{
+    0x00540220, 0x00540222, 0x52009229, 0x52009230, 0x00209113, 0x00209116,
+    0x00289110, 0x00289145, 0x00209111, 0x00189226, 0x00189114, 0x00189112,
+    0x00189115, 0x00189117, 0x00209071, 0x00620002, 0x0062000a};
 // Elements that are binary numbers; others, such as Rescale Slope, are text.
-constexpr std::array<std::uint32_t, 8> shorts{0x00280002, 0x00280010, 0x00280011, 0x00280100,
-                                              0x00280101, 0x00280102, 0x00280103, 0x00209156};
+constexpr std::array<std::uint32_t, 11> shorts{0x00620004, 0x0062000b, 0x0062000e, 0x00280002,
+                                               0x00280010, 0x00280011, 0x00280100, 0x00280101,
+                                               0x00280102, 0x00280103, 0x00209156};
 constexpr std::array<std::uint32_t, 1> longs{0x00209128};
 constexpr std::array<std::uint32_t, 3> doubles{0x00189082, 0x00209153, 0x00189087};
 

@@ -171,6 +171,18 @@ DicomImage image_of(const fs::path& file, const DicomObject& object, int frame) 
 
 }  // namespace
 
+DicomImage placed_frame(const fs::path& file, const DicomObject& object, int frame) {
+  const Elements elements(object, frame);
+  DicomImage image;
+  image.file = file;
+  image.frame = frame;
+  image.columns = std::atoi(elements.value("0028|0011").c_str());
+  image.rows = std::atoi(elements.value("0028|0010").c_str());
+  take_geometry(elements, image);
+  take_spacing(elements, image);
+  return image;
+}
+
 std::vector<DicomImage> images_of(const fs::path& file, const DicomObject& object) {
   const int count = std::max(1, std::atoi(text_of(object.header, "0028|0008").c_str()));
   std::vector<DicomImage> images;

@@ -52,4 +52,8 @@ struct DicomImage {
 /// The images of an object with pixels. What is wrong with one is its fault; throws nothing.
 std::vector<DicomImage> images_of(const std::filesystem::path& file, const DicomObject& object);
 
+/// Only size and place of a frame, whatever it shows. Throws Error (input) beginning with the file's name
+/// where they are missing or impossible.
+DicomImage placed_frame(const std::filesystem::path& file, const DicomObject& object, int frame);
+
 }  // namespace breast

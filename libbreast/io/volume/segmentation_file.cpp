@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/table.hpp"
 #include "core/text/lower_case.hpp"
+#include "io/series/segmentation.hpp"
 #include "io/volume/encode.hpp"
 #include "io/volume/header.hpp"
 #include "io/volume_file.hpp"
@@ -101,12 +102,13 @@ std::vector<Segment> segments_in(const fs::path& file, const NrrdNotes& notes) {
 
 }  // namespace
 
-bool is_segmentation_name(const fs::path& file) {
+bool is_segmentation_file(const fs::path& file) {
   const std::string name = lower_case(file.filename().string());
-  return name.ends_with(".seg.nrrd") || name.ends_with(".seg.nhdr");
+  return name.ends_with(".seg.nrrd") || name.ends_with(".seg.nhdr") || is_dicom_segmentation(file);
 }
 
 SegmentedVolume read_segmentation(const fs::path& file) {
+  if (is_dicom_segmentation(file)) return read_dicom_segmentation(file);
   const NrrdNotes notes = nrrd_notes(file);
   if (notes.dimension > 3) {
     throw input_error(

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// DICOM Segmentation objects as other programs write them: segments in frames of any order, without the
+// slices that show none, of one bit or of fractions; and what is refused.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/table.hpp"
+#include "fixtures/scratch_folder.hpp"
+#include "io/dicom/dataset.hpp"
+#include "io/segmentation_file.hpp"
+
+namespace breast {
+namespace {
+
+struct Written {
+  std::vector<std::string> labels = {"Chest wall", "Dense_1", "Fat"};
+  bool fractional = false, states_distance = true, overlap = false, one_label_less = false;
+  double one_aside = 0, one_between = 0;  ///< mm
+};
+
+Grid oblique() {
+  Grid grid;
+  grid.size = {7, 5, 6};
+  grid.spacing = Vec3(0.9, 1.1, 2.5);
+  grid.origin = Vec3(-12, 30, 5);
+  grid.direction = Eigen::AngleAxisd(0.3, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  return grid;
+}
+
+/// 0 to 3; the third slice is empty, and it is no end of the volume.
+int value_at(int i, int j, int k) {
+  return k == 2 ? 0 : (i + 2 * j + 3 * k) % 4;
+}
+
+std::string triple(const Vec3& v) {
+  return format_number(v.x()) + "\\" + format_number(v.y()) + "\\" + format_number(v.z());
+}
+
+void write(const std::filesystem::path& file, const Written& how) {
+  const Grid grid = oblique();
+  std::vector<DatasetBuilder> segments, frames;
+  for (std::size_t n = 0; n < how.labels.size(); ++n) {
+    DatasetBuilder item;
+    item.unsigned_short(0x00620004, std::uint16_t(n + 1));
+    if (!how.one_label_less || n > 0) item.text(0x00620005, "LO", how.labels[n]);
+    segments.push_back(item);
+  }
+  std::vector<bool> pixels;
+  for (const int k : {5, 0, 3, 1, 4}) {
+    for (int segment = 1; segment <= 3; ++segment) {
+      const bool last = k == 4 && segment == 3;
+      DatasetBuilder place, content, frame;
+      const Vec3 moved = last ? Vec3(how.one_aside * grid.direction.col(0) +
+                                     how.one_between * grid.direction.col(2))
+                              : Vec3::Zero();
+      place.text(0x00200032, "DS", triple(grid.to_patient(Vec3(0, 0, k)) + moved));
+      content.unsigned_short(0x0062000b, std::uint16_t(segment));
+      frame.sequence(0x00209113, {place}).sequence(0x0062000a, {content});
+      frames.push_back(frame);
+      for (int j = 0; j < grid.size[1]; ++j) {
+        for (int i = 0; i < grid.size[0]; ++i)
+          pixels.push_back(value_at(i, j, k) == segment || (how.overlap && value_at(i, j, k) == 1));
+      }
+    }
+  }
+  std::string bytes(how.fractional ? pixels.size() : (pixels.size() + 7) / 8, '\0');
+  for (std::size_t n = 0; n < pixels.size(); ++n) {
+    if (how.fractional) {
+      bytes[n] = char(pixels[n] ? 140 : 90);  // of 200
+    } else if (pixels[n]) {
+      bytes[n / 8] = char(std::uint8_t(bytes[n / 8]) | 1 << n % 8);
+    }
+  }
+  if (bytes.size() % 2 != 0) bytes += '\0';
+  DatasetBuilder axes, measures, shared, set;
+  axes.text(0x00200037, "DS", triple(grid.direction.col(0)) + "\\" + triple(grid.direction.col(1)));
+  measures.text(0x00280030, "DS", "1.1\\0.9");
+  if (how.states_distance) measures.number(0x00180088, grid.spacing[2]);
+  shared.sequence(0x00209116, {axes}).sequence(0x00289110, {measures});
+  const std::uint16_t bits = how.fractional ? 8 : 1;
+  set.text(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.66.4")
+      .text(0x00080018, "UI", "2.25.11")
+      .text(0x00080060, "CS", "SEG")
+      .unsigned_short(0x00280002, 1)
+      .text(0x00280004, "CS", "MONOCHROME2")
+      .text(0x00280008, "IS", std::to_string(frames.size()))
+      .unsigned_short(0x00280010, std::uint16_t(grid.size[1]))
+      .unsigned_short(0x00280011, std::uint16_t(grid.size[0]))
+      .unsigned_short(0x00280100, bits)
+      .unsigned_short(0x00280101, bits)
+      .unsigned_short(0x00280102, std::uint16_t(bits - 1))
+      .unsigned_short(0x00280103, 0)
+      .text(0x00620001, "CS", how.fractional ? "FRACTIONAL" : "BINARY")
+      .sequence(0x00620002, segments)
+      .unsigned_short(0x0062000e, 200)
+      .sequence(0x52009229, {shared})
+      .sequence(0x52009230, frames)
+      .words(0x7fe00010, bytes);
+  write_text(file, set.file());
+}
+
+std::string refusal(const std::filesystem::path& file) {
+  try {
+    read_segmentation(file);
+  } catch (const Error& error) {
+    return error.kind() == ErrorKind::input ? error.what() : "";
+  }
+  return "";
+}
+
+TEST(DicomSegmentation, SegmentsAreWhereTheyWere) {
+  const ScratchFolder folder;
+  const auto file = folder / "seg";  // objects of an archive have no endings
+  for (const bool fractional : {false, true}) {
+    for (const bool states_distance : {false, true}) {
+      Written how;
+      how.fractional = fractional;
+      how.states_distance = states_distance;
+      write(file, how);
+      ASSERT_TRUE(is_segmentation_file(file));
+      const SegmentedVolume read = read_segmentation(file);
+      const Grid grid = oblique();
+      ASSERT_EQ(read.values.grid.size, grid.size);
+      EXPECT_LT((read.values.grid.origin - grid.origin).norm(), 1e-4);
+      EXPECT_LT((read.values.grid.direction - grid.direction).norm(), 1e-4);
+      EXPECT_LT((read.values.grid.spacing - grid.spacing).norm(), 1e-4);
+      for (int k = 0; k < 6; ++k)
+        for (int j = 0; j < 5; ++j)
+          for (int i = 0; i < 7; ++i)
+            ASSERT_EQ(read.values.voxels[grid.offset(i, j, k)], value_at(i, j, k));
+      const LabelVolume labels =
+          labels_of(read, parse_tissue_codes({"duke-fgt"}), Side::left, "seg");
+      EXPECT_EQ(labels.at(1, 0, 0), Tissue::muscle);
+      EXPECT_EQ(labels.at(2, 0, 0), Tissue::fibroglandular);
+      EXPECT_EQ(labels.at(3, 0, 0), Tissue::fat);
+      EXPECT_FALSE(read.content_sha256.empty());
+    }
+  }
+}
+
+TEST(DicomSegmentation, WhatIsNoVolumeOfSegmentsIsRefused) {
+  const ScratchFolder folder;
+  const auto says = [&](const Written& how, const char* what) {
+    write(folder / "seg.dcm", how);
+    EXPECT_NE(refusal(folder / "seg.dcm").find(what), std::string::npos)
+        << what << ": " << refusal(folder / "seg.dcm");
+  };
+  Written how;
+  how.overlap = true;
+  says(how, "overlap");
+  how = {};
+  how.one_label_less = true;
+  says(how, "3 numbers and 2 labels");
+  how = {};
+  how.one_aside = 3;
+  says(how, "straight behind");
+  how = {};
+  how.one_between = 1;
+  says(how, "apart");
+  how = {};
+  how.labels = {"Chest wall", "Fat"};
+  says(how, "of segment '3', which it does not describe");
+  write_text(folder / "no.dcm", "nothing");
+  EXPECT_FALSE(is_segmentation_file(folder / "no.dcm"));
+}
+
+}  // namespace
+}  // namespace breast
