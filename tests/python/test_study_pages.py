@@ -195,6 +195,9 @@ class Cohort(InFolder):
         self.assertIn("4 cases: 1 done, 3 failed, 1 ask for a look.", made)
         self.assertIn("<td>60 (10)<td><div class=strip><b style=\"left:20.0%;width:40.0%\"></b><i style=\"left:100.0%\">", made)
         self.assertIn("no contours", contours)
+        self.assertIn("<tr><td>good<td", made)
+        self.write("good/page.html", "x")
+        self.assertIn('<tr><td><a href="good/page.html">good</a><td', cohort_page(pages))
         self.assertNotIn(f"{self.folder.parent}/", made, "names no folder")
 
     def test_sides_say_how_far_they_get_and_what_was_mended(self):

@@ -47,6 +47,7 @@ def cohort_page(cohort: CohortPages) -> str:
     failed = [{"name": row["case"], "reason": row["reason"], "log": row["log"],
                "picture": _small(cohort.runs / row["case"] / "contours.png", 240)} for row in cohort.cases if _rank(row) == 0]
     done = [{"name": row["case"], "kind": _kind(row), "look": row["look"].split("; "),
+             "page": f"{row['case']}/page.html" if exists(cohort.runs / row["case"] / "page.html") else "",
              "cells": [row["volume_ml"], row["supine_nipple_mm"], *(f"{row[f'{v}_thickness_mm']}, {row[f'{v}_force_N']}"
                                                                    for v in ("cc", "mlo"))],
              "picture": _small(cohort.runs / row["case"] / "figures/summary.png", 480)} for row in rows if _rank(row) > 0]
