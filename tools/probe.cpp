@@ -33,9 +33,10 @@ void declare(Tool& tool, Choices& c) {
             "landmarks to print (default: all landmarks of the first file)");
   tool.input_file(c.base, "--base", "FILE.vtkhdf",
                   "mesh to which the relative displacements refer");
-  tool.input_file(c.truth, "--truth", "FILE.tsv",
-                  "true positions (phantom --truth); prints one row per landmark instead, with "
-                  "its error in mm in the posture of each file");
+  tool.input_file(
+      c.truth, "--truth", "FILE.tsv",
+      "true positions (phantom --truth), prone and in any other posture; prints one row per "
+      "landmark instead, with its error in mm in the posture of each file");
   tool.example("probe reference.vtkhdf supine.vtkhdf --truth paper-truth/landmarks.tsv",
                "errors of the chain against the phantom's truth");
   tool.example("probe supine.vtkhdf --landmarks tumour,nipple", "supine displacements");

@@ -49,7 +49,9 @@ std::vector<TrueLandmark> true_landmarks(const Table& table, Side side, const st
       throw input_error(name, ": ", error.what());
     }
   };
-  std::vector<std::string> postures{"stress_free", "prone", "supine"};
+  std::vector<std::string> postures{"prone"};
+  for (const char* posture : {"stress_free", "supine"})
+    if (table.has(posture + std::string("_x_mm"))) postures.push_back(posture);
   for (const View view : {View::cc, View::mlo, View::ml})
     if (table.has(view_column(view) + "_x_mm")) postures.push_back(view_column(view));
   std::vector<TrueLandmark> list;

@@ -27,7 +27,7 @@ struct TrueLandmark {
 
 /// Rows of one side from a truth table (phantom --truth DIR writes it as landmarks.tsv: landmark,
 /// side, {stress_free,prone,supine}_{x,y,z}_mm; truth-table adds {cc,mlo,ml}_{x,y,z}_mm and
-/// POSTURE_own_error_mm). The table must have been read with its number of rows. Throws Error
+/// POSTURE_own_error_mm). The prone positions are required, the others are read where they are given. The table must have been read with its number of rows. Throws Error
 /// (input) beginning with `name`.
 std::vector<TrueLandmark> true_landmarks(const Table& table, Side side, const std::string& name);
 

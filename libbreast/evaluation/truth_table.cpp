@@ -60,7 +60,9 @@ Table truth_table(const Table& imaged, const std::vector<HexMesh>& meshes) {
   const auto landmarks = true_landmarks(imaged, side, imaged.name);
   Table table;
   table.columns = {"landmark", "side"};
-  std::vector<std::string> postures{"stress_free", "prone", "supine"};
+  std::vector<std::string> postures{"prone"};
+  for (const char* posture : {"stress_free", "supine"})
+    if (landmarks.front().at.count(posture) > 0) postures.push_back(posture);
   for (const auto& [posture, pair] : pairs)
     if (landmarks.front().at.count(posture) == 0) postures.push_back(posture);
   for (const std::string& posture : postures) {

@@ -283,6 +283,21 @@ TEST(LandmarkTruth, ItsTumourIsNotTheChainsTumour) {
   EXPECT_EQ(table.rows[1][0], "true-tumour");
 }
 
+TEST(LandmarkTruth, ATableOfTwoPosturesIsEnough) {
+  const HexMesh mesh = analytic_breast_mesh(4);
+  Table table{{"landmark", "side", "prone_x_mm", "prone_y_mm", "prone_z_mm", "supine_x_mm",
+               "supine_y_mm", "supine_z_mm"},
+              {{"mark", std::string(side_name(mesh.side)), "0", "0", "0", "0", "3", "4"}}};
+  const auto truth = true_landmarks(parse_table(table.closed_text(), "t.tsv"), mesh.side, "t.tsv");
+  EXPECT_EQ(truth.front().at.size(), 2u);
+  HexMesh supine = mesh;  // has not moved
+  supine.reference = supine.imaged;
+  supine.gravity = Vec3(0, 9810, 0);
+  const Table errors = compare_with_truth({supine}, truth);
+  EXPECT_EQ(errors.columns.back(), "supine_true_mm");
+  EXPECT_EQ(errors.rows[0].back(), "5.000");
+}
+
 // A breast between plates 40 mm apart whose every point has moved by `by`.
 HexMesh compressed(int n, const Vec3& by) {
   HexMesh mesh = analytic_breast_mesh(n);

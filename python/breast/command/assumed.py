@@ -52,7 +52,8 @@ def series_of(installation: Installation, folder: str) -> Series:
     return series
 
 
-def _own_name(scan: str) -> str:
+def own_name(scan: str) -> str:
+    """The name of a scan without its folder and ending."""
     name = os.path.basename(os.path.abspath(scan))
     return next((name[:-len(ending)] for ending in _SCAN_ENDINGS if name.lower().endswith(ending)), name)
 
@@ -62,7 +63,7 @@ def tumour_beside(scan: str) -> dict[str, str]:
 
     Raises BreastError if two files are for the same side.
     """
-    folder, own = os.path.dirname(os.path.abspath(scan)), _own_name(scan)
+    folder, own = os.path.dirname(os.path.abspath(scan)), own_name(scan)
     found: dict[str, str] = {}
     for entry in sorted(os.listdir(folder)):
         for side in ("", *SIDES):

@@ -7,6 +7,7 @@ import os
 import select
 import signal
 import subprocess
+import sys
 from collections.abc import Callable, Sequence
 from typing import IO, NamedTuple
 
@@ -19,6 +20,11 @@ class Captured(NamedTuple):
     exit_code: int
     out: str
     err: str
+
+
+def beside(name: str) -> str:
+    """The program of that name in the folder of the running one."""
+    return os.path.join(os.path.dirname(os.path.realpath(sys.argv[0])), name)
 
 
 def _begin(parent: int, libc: ctypes.CDLL) -> None:

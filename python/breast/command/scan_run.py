@@ -11,7 +11,8 @@ import numpy as np
 
 from ..errors import BreastError
 from ..reports import read_report
-from .assumed import SIDES, TUMOUR_RULE, series_of, side_of, tumour_beside, tumour_position
+from .assumed import SIDES, TUMOUR_ENDINGS, own_name, series_of, side_of, tumour_beside, tumour_position
+from .child import run_child
 from .installation import Installation
 from .make_name import folder_for_make, name_for_make
 from .pipeline import asked_of_make, make_run, show_results
@@ -77,7 +78,8 @@ def _tumours(r: PipelineRequest, assumed: list[str]) -> dict[str, str]:
     for side, file in found.items():
         assumed.append(f"{side + ': ' if side else ''}the tumour is that of {file} (none: TUMOUR=none)")
     if not found:
-        assumed.append(f"no tumour: there is no file beside the scan with the name {TUMOUR_RULE} (TUMOUR=x,y,z, FILE or auto)")
+        assumed.append(f"no tumour, as there is no {own_name(r.scan)}-tumour{{{','.join(TUMOUR_ENDINGS)}}} beside the scan (give TUMOUR=x,y,z, a "
+                       "file, or auto)")
     return found
 
 
@@ -86,7 +88,7 @@ def _in_view(sides: dict[str, _OneSide]) -> tuple[dict[str, _OneSide], dict[str,
     show is neither, unless it is the only one."""
     shown, failed, absent = {}, {}, {}
     for name, side in sides.items():
-        code = side.made([f"{side.run}/labels.vtkhdf"])
+        code = run_child([*side.make, f"{side.run}/labels.vtkhdf"])
         reason = str(side.segmented().get("reason", ""))
         if code == 0:
             shown[name] = side
