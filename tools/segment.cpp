@@ -48,9 +48,10 @@ void declare(Tool& tool, Choices& c) {
   tool.input(c.scan, "MR", "scan: .nrrd, .nii, .nii.gz, .mha, or a DICOM folder");
   tool.output(
       c.labels, "LABELS.vtkhdf",
-      "tissue labels of the chosen breast; a .nrrd, .nii, .nii.gz or .mha file holds the tissue "
-      "codes only, for other programs",
-      {".nrrd", ".nii", ".nii.gz", ".mha"});
+      "tissue labels of the chosen breast; for other programs, a .nrrd, .nii, .nii.gz or .mha file "
+      "holds the tissue codes only, a .seg.nrrd file is a segmentation of 3D Slicer, and a .dcm file is a "
+      "DICOM segmentation without patient data",
+      {".nrrd", ".nii", ".nii.gz", ".mha", ".dcm"});
   tool.choice(c.side, "--side", {"left", "right"}, "the patient's left or right breast")
       .required("--side");
   tool.choice(c.posture, "--posture", {"prone", "supine"}, "how the patient lies");
@@ -312,7 +313,9 @@ void run_segment(const Choices& c, Run& run) {
   if (!c.overlay.empty()) write_overlay(c.overlay, scan, result.labels);
   if (!c.points.empty()) write_surface(c.points, result.points);
   if (!c.measures.empty()) write_table(c.measures, measures);
-  if (is_volume_name(c.labels)) {
+  if (is_segmentation_name(c.labels)) {
+    write_segmentation(c.labels, result.labels);
+  } else if (is_volume_name(c.labels)) {
     Volume<std::uint8_t> codes(result.labels.grid);
     codes.voxels = result.labels.tissue;
     write_volume(c.labels, codes);

@@ -22,6 +22,7 @@
 #include "io/mammogram_file.hpp"
 #include "io/mesh_file.hpp"
 #include "io/picture_file.hpp"
+#include "io/segmentation_file.hpp"
 #include "io/surface_file.hpp"
 #include "io/tet_mesh_file.hpp"
 #include "io/volume_file.hpp"
@@ -113,6 +114,7 @@ const Writer writers[] = {
        write_picture_png(f, {20, 10, std::vector<float>(200, 0.5F)});
      }},
     {"image.dcm", [](const fs::path& f) { write_mammogram_dicom(f, mammogram(), {}); }},
+    {"labels.dcm", [](const fs::path& f) { write_segmentation(f, samples::labels()); }},
     {"scan.nrrd", [](const fs::path& f) { write_volume(f, volume<float>()); }},
     {"scan.nii", [](const fs::path& f) { write_volume(f, volume<std::int16_t>()); }},
     {"scan.nii.gz", [](const fs::path& f) { write_volume(f, volume<std::int16_t>()); }},

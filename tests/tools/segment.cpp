@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 #include "core/atomic_file.hpp"
 #include "core/report.hpp"
@@ -12,6 +13,7 @@
 #include "fixtures/synthetic_scan.hpp"
 #include "io/dicom/dataset.hpp"
 #include "io/label_file.hpp"
+#include "io/segmentation_file.hpp"
 #include "io/surface_file.hpp"
 #include "io/volume_file.hpp"
 
@@ -151,6 +153,18 @@ TEST_F(SegmentFolder, ANameOfAnotherFormatGivesThatFormat) {
     EXPECT_LT((codes.grid.origin - labels.grid.origin).norm(), 1e-3) << name;
     EXPECT_TRUE(std::equal(codes.voxels.begin(), codes.voxels.end(), labels.tissue.begin()))
         << name;
+  }
+  for (const char* name : {"labels.seg.nrrd", "LABELS.DCM"}) {
+    const ToolResult result =
+        run_tool("segment", {"t1.nrrd", name, "--side", "left", "--quiet"}, folder_.path());
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const LabelVolume back = labels_of(read_segmentation(folder_ / name), {}, Side::left, name);
+    std::map<std::uint8_t, int> ours, theirs;
+    for (const std::uint8_t tissue : labels.tissue) ++ours[tissue];
+    for (const std::uint8_t tissue : back.tissue) ++theirs[tissue];
+    ours.erase(0);
+    theirs.erase(0);
+    EXPECT_EQ(ours, theirs) << name;
   }
 }
 

@@ -5,13 +5,16 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <cstdlib>
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/table.hpp"
+#include "fixtures/samples.hpp"
 #include "fixtures/scratch_folder.hpp"
 #include "io/dicom/dataset.hpp"
 #include "io/segmentation_file.hpp"
+#include "io/series/segmentation.hpp"
 
 namespace breast {
 namespace {
@@ -166,6 +169,36 @@ TEST(DicomSegmentation, WhatIsNoVolumeOfSegmentsIsRefused) {
   says(how, "of segment '3', which it does not describe");
   write_text(folder / "no.dcm", "nothing");
   EXPECT_FALSE(is_segmentation_file(folder / "no.dcm"));
+}
+
+TEST(DicomSegmentation, WhatIsWrittenReadsBackAndPassesTheValidator) {
+  const ScratchFolder folder;
+  LabelVolume labels = samples::labels();
+  for (std::uint8_t& tissue : labels.tissue)  // segments are numbered without a gap
+    if (tissue == std::uint8_t(Tissue::fibroglandular)) tissue = std::uint8_t(Tissue::fat);
+  const auto file = folder / "labels.dcm", log = folder / "verdict.txt";
+  write_dicom_segmentation(file, labels);
+  const LabelVolume back = labels_of(read_segmentation(file), {}, labels.side, "labels.dcm");
+  ASSERT_EQ(back.grid.size[0], labels.grid.size[0]);
+  // Slices without tissue at both ends are not in the object.
+  const Vec3 offset = labels.grid.direction.transpose() * (back.grid.origin - labels.grid.origin);
+  const int first = int(std::lround(offset.z() / labels.grid.spacing.z()));
+  EXPECT_NEAR(offset.z(), first * labels.grid.spacing.z(), 1e-4);
+  const std::size_t pixels = labels.grid.offset(0, 0, 1);
+  for (std::size_t n = 0; n < labels.tissue.size(); ++n) {
+    const int k = int(n / pixels) - first;
+    const bool inside = k >= 0 && k < back.grid.size[2];
+    const std::size_t there = std::size_t(std::max(k, 0)) * pixels + n % pixels;
+    ASSERT_EQ(inside ? int(back.tissue[there]) : 0, int(labels.tissue[n])) << n;
+  }
+  // dciodvfy, of the Debian package dicom3tools, is the usual judge of DICOM conformance.
+  if (std::system("command -v dciodvfy > /dev/null") != 0)
+    GTEST_SKIP() << "dciodvfy is not installed";
+  const std::string command = "dciodvfy '" + file.string() + "' > '" + log.string() + "' 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  const std::string verdict = read_text(log);
+  EXPECT_NE(verdict.find("Segmentation"), std::string::npos) << verdict;
+  EXPECT_EQ(verdict.find("Error"), std::string::npos) << verdict;
 }
 
 }  // namespace

@@ -62,6 +62,17 @@ DatasetBuilder& DatasetBuilder::signed_short(std::uint32_t tag, std::int16_t val
   return put(tag, "SS", little_endian(std::uint16_t(value), 2));
 }
 
+DatasetBuilder& DatasetBuilder::unsigned_longs(std::uint32_t tag,
+                                               const std::vector<std::uint32_t>& values) {
+  std::string bytes;
+  for (const std::uint32_t value : values) bytes += little_endian(value, 4);
+  return put(tag, "UL", std::move(bytes));
+}
+
+DatasetBuilder& DatasetBuilder::tag_of(std::uint32_t tag, std::uint32_t element) {
+  return put(tag, "AT", tag_bytes(element));
+}
+
 DatasetBuilder& DatasetBuilder::words(std::uint32_t tag, std::string_view bytes) {
   return put(tag, "OW", std::string(bytes));
 }

@@ -19,6 +19,8 @@ class DatasetBuilder {
   DatasetBuilder& number(std::uint32_t tag, double value);  ///< DS, as many digits as it holds
   DatasetBuilder& unsigned_short(std::uint32_t tag, std::uint16_t value);
   DatasetBuilder& signed_short(std::uint32_t tag, std::int16_t value);
+  DatasetBuilder& unsigned_longs(std::uint32_t tag, const std::vector<std::uint32_t>& values);
+  DatasetBuilder& tag_of(std::uint32_t tag, std::uint32_t element);  ///< AT, another element's tag
   DatasetBuilder& words(std::uint32_t tag, std::string_view bytes);  ///< OW, 16-bit values
   DatasetBuilder& sequence(std::uint32_t tag, const std::vector<DatasetBuilder>& items);
   /// How grey pixels of 16 bits lie in the pixel data (PS3.3 C.7.6.3): of which `stored` are used.

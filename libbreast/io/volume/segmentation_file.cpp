@@ -102,6 +102,11 @@ std::vector<Segment> segments_in(const fs::path& file, const NrrdNotes& notes) {
 
 }  // namespace
 
+bool is_segmentation_name(const fs::path& file) {
+  const std::string name = lower_case(file.filename().string());
+  return name.ends_with(".seg.nrrd") || name.ends_with(".dcm");
+}
+
 bool is_segmentation_file(const fs::path& file) {
   const std::string name = lower_case(file.filename().string());
   return name.ends_with(".seg.nrrd") || name.ends_with(".seg.nhdr") || is_dicom_segmentation(file);
@@ -132,6 +137,8 @@ SegmentedVolume read_segmentation(const fs::path& file) {
 }
 
 void write_segmentation(const fs::path& file, const LabelVolume& labels) {
+  if (lower_case(file.extension().string()) == ".dcm")
+    return write_dicom_segmentation(file, labels);
   const std::string_view voxels(reinterpret_cast<const char*>(labels.tissue.data()),
                                 labels.tissue.size());
   const VoxelType bytes{"unsigned char", "MET_UCHAR", 2, 8};
