@@ -96,7 +96,8 @@ class PackedData(unittest.TestCase):
         held = packed.packed_scan(scan, self.views.body)
         low, high = packed.box_of(self.views.body)
         np.testing.assert_allclose(held["origin"][:2], low[:2] - 15)
-        np.testing.assert_allclose(scan.grid.to_index(self.places(held))[:, 2] % 1, 0, atol=1e-6, err_msg="its planes are the scan's slices")
+        slices = scan.grid.to_index(self.places(held))[:, 2]
+        np.testing.assert_allclose(slices, np.rint(slices), atol=1e-6, err_msg="its planes are the scan's slices")
         row, place = np.array(held["slices"]["row"]), np.array([80.0, -20, 12])
         self.assertAlmostEqual(row[:3] @ place + row[3], scan.grid.to_index(place)[2])
         self.assertEqual((held["slices"]["plane"], held["slices"]["count"]), ("axial", scan.grid.size[2]))
@@ -131,7 +132,8 @@ class PackedData(unittest.TestCase):
             self.assertEqual(data_of(made)["band_without"], hostile)
 
     def test_refuses_files_of_other_views(self):
-        for name, other, said in (("cc.vti", "mlo.vti", "is of MLO of the left breast, but cc.vtkhdf of CC"), ("cc.vtkhdf", "mesh.vtkhdf", "is no compression"),
+        for name, other, said in (("cc.vti", "mlo.vti", "is of MLO of the left breast, but cc.vtkhdf of CC"),
+                                  ("cc.vtkhdf", "mesh.vtkhdf", "is no compression"),
                                   ("lookup.h5", "lookup.h5", "was made of other compressions")):
             run = small_run.scratch("page")
             for file in ("cc.vtkhdf", "mlo.vtkhdf", "cc.vti", "mlo.vti", "lookup.h5"):
@@ -251,8 +253,9 @@ class WhatIsSaid(unittest.TestCase):
         run = small_run.scratch("loose")
         for file in ("cc.vtkhdf", "cc.vti", "mlo.vtkhdf", "mesh.vtkhdf", "labels.json", "mesh.json", "cc.json"):
             shutil.copy(self.run_folder / file, run)
+        early = {"status": "stopped_early", "reduction_percent": 12}
         for said, fields in (("the simulated plates do not hold the breast", {"status": "not_gripped"}),
-                             ("stopped early, when the breast was 12 % thinner, which is not enough", {"status": "stopped_early", "reduction_percent": 12}),
+                             ("stopped early, when the breast was 12 % thinner, which is not enough", early),
                              ("the simulated compression failed", {"status": "not_converged"})):
             (run / "mlo.json").write_text(json.dumps({"view": "MLO", "accepted": False, "explanation": "it <slips>", **fields}))
             views = read_views(run, None)
@@ -297,7 +300,8 @@ class WhatIsSaid(unittest.TestCase):
             nipple = image.project(state.landmark_position("nipple")[None])
             np.testing.assert_allclose(patient.put(nipple)[0], nipple[0] + 0.5 * image.pixel_mm, atol=1.5)
             self.assertLess(patient.residual_mm, 1.5)
-        page = views_page(run, dataclasses.replace(views, pairs=self.moved_tumour()[0].pairs, body=self.moved_tumour()[0].body, origin="given"))
+        moved = self.moved_tumour()[0]
+        page = views_page(run, dataclasses.replace(views, pairs=moved.pairs, body=moved.body, origin="given"))
         self.assertIn("In the patient's own mammograms", words_of(page))
         for view in ("CC", "MLO"):
             drawn = page.partition(f'id="picture-patient-{view}"')[2].partition("</figure>")[0]
@@ -372,7 +376,8 @@ class WhatIsSaid(unittest.TestCase):
 
     def test_every_advice_has_words_and_they_are_plain(self):
         """A kind of warning that has advice in the report has words on the page."""
-        rows = [line.split("\t")[0] for line in (small_run.source / "pipelines/advice.tsv").read_text().splitlines() if line[:1] not in ("#", "")]
+        advice = (small_run.source / "pipelines/advice.tsv").read_text().splitlines()
+        rows = [line.split("\t")[0] for line in advice if line[:1] not in ("#", "")]
         words = (Path(facts.__file__).parent / "words.tsv").read_text()
         missing = [row for row in rows if f"\n{row}\t" not in words and row != "is (below|above) the range of"]
         self.assertEqual(missing, [])

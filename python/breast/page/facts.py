@@ -15,7 +15,8 @@ from .patient import PatientImage
 
 _BEHIND_NIPPLE_MM = 10  # from the line straight back from the nipple
 _DENSITY_LIMITS = (4.5, 7.5, 15.5)  # % of the volume
-_DENSITY_WORDS = ("a, almost entirely fatty", "b, scattered areas of fibroglandular density", "c, heterogeneously dense", "d, extremely dense")
+_DENSITY_WORDS = ("a, almost entirely fatty", "b, scattered areas of fibroglandular density", "c, heterogeneously dense",
+                  "d, extremely dense")
 _AXES = (("R", "L"), ("A", "P"), ("I", "S"))
 
 
@@ -136,5 +137,6 @@ def facts_of_breast(labels_report: StageReport, compressions: list[StageReport])
         if None not in (thickness, force, angle):
             view = report.text("view")
             tilt = f", {angle:.0f} degrees" if view != "CC" else ""
-            facts.append(Fact(f"plates_{view}", f"{view} compression", f"{thickness:.0f} mm thick, {force:.0f} N{tilt}", "of the simulation"))
+            facts.append(Fact(f"plates_{view}", f"{view} compression", f"{thickness:.0f} mm thick, {force:.0f} N{tilt}",
+                              "of the simulation"))
     return facts

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The patient's own mammograms, registered with the simulated views by cc2mlo: patient.json, patient-cc.png and patient-mlo.png of a run."""
+"""The patient's own mammograms, registered with the simulated views by cc2mlo: patient.json, patient-cc.png, patient-mlo.png of a run."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -43,7 +43,10 @@ class PatientImage:
 
 
 def read_patient(run: Path, view: str, side: str) -> PatientImage | None:
-    """The patient's image of a view (CC, MLO or ML); None where the run has none. Raises BreastError for a report that says nothing of it."""
+    """The patient's image of a view (CC, MLO or ML); None where the run has none.
+
+    Raises BreastError for a report that says nothing of it.
+    """
     picture, file = run / f"patient-{'cc' if view == 'CC' else 'mlo'}.png", run / "patient.json"
     if not picture.exists() or not file.exists():
         return None

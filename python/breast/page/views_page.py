@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from ..mammogram import Mammogram
     from ..state import State
     from ..volume import Volume
+    from .facts import Fact
     from .lines import MatchedLine
     from .patient import PatientImage
 
@@ -36,7 +37,8 @@ _ANIMATIONS = {"supine": "The breast while the patient turns from prone to supin
                "mlo": "The breast while the plates close in MLO, equilibrium by equilibrium"}
 _LARGEST_ANIMATIONS = 3_000_000  # bytes
 _NOT_COUNTED = {"tumour": "how stiff the tumour is", "sternum": "how firmly the breast is held at the sternum",
-                "chest_wall": "where exactly the chest wall lies", "angle": "the true angle of the view", "detector": "the height of the plates"}
+                "chest_wall": "where exactly the chest wall lies", "angle": "the true angle of the view",
+                "detector": "the height of the plates"}
 
 
 @dataclass(frozen=True)
@@ -87,8 +89,8 @@ def read_views(run: Path, scan: Path | None, shows_scan: bool = True) -> Views:
     if origin == "none" and any("tumour" in name for name in body.landmarks):  # a mesh without a report
         origin = "artificial" if "artificial_tumour" in body.landmarks else "given"
     patients = {image.view: read_patient(run, image.view, image.side) for image, _ in pairs}
-    return Views(pairs, lookups, body, read_labels(labels) if labels.exists() else None, load_scan(scan) if scan else None, shows_scan, origin,
-                 {view: patient for view, patient in patients.items() if patient is not None})
+    return Views(pairs, lookups, body, read_labels(labels) if labels.exists() else None, load_scan(scan) if scan else None, shows_scan,
+                 origin, {view: patient for view, patient in patients.items() if patient is not None})
 
 
 def _read_lookups(file: Path, states: list[State]) -> tuple[Lookup, Lookup]:
@@ -108,31 +110,37 @@ def views_page(run: Path, views: Views) -> str:
     from markupsafe import Markup
 
     from .drawing import BAR_MM
-    from .facts import facts_of_breast, facts_of_patient, facts_of_tumour
     from .packed import LARGEST_PAGE
     from .remarks import banners_of, remarks_of
 
     lines = _lines_of_tumour(views)
-    pictures = _pictures(views, lines)
-    tumour = facts_of_tumour(views.body, views.pairs, views.labels, views.scan.grid if views.scan else None) if views.origin != "none" else []
-    compressions = [StageReport.read(state.file.with_suffix(".json")) for _, state in views.pairs]
-    breast = facts_of_breast(StageReport.read(run / "labels.json"), compressions)
-    scripts = [Markup((_TEMPLATES / f"scripts/{name}.js").read_text(encoding="utf-8")) for name in _SCRIPTS]
-    patients = _pictures_of_patient(views, lines)
+    pictures, patients = _pictures(views, lines), _pictures_of_patient(views, lines)
     widths = [picture.size[0] for picture in pictures]
-    pair = max(sum(widths[:2]), *widths, sum(picture.size[0] for picture in patients)) if widths else 1
+    pair = max([1, sum(widths[:2]), *widths, sum(picture.size[0] for picture in patients)])  # mm, side by side on a telephone
+    scripts = [Markup((_TEMPLATES / f"scripts/{name}.js").read_text(encoding="utf-8")) for name in _SCRIPTS]
     made = page("views", _TEMPLATES, title=_title(views), banners=banners_of(run), remarks=remarks_of(run),
-                answer_title=_answer_title(views), answer=_answer(views, lines), pictures=pictures, bar_mm=BAR_MM,
-                patients=patients, animations=_animations(run),
-                row_mm=f"{max(sum(widths), pair):.1f}", pair_mm=f"{pair:.1f}",
-                tumour_words=_TUMOUR_WORDS[views.origin], tumour_kind="artificial" if views.origin == "artificial" else "tumour",
-                with_views=bool(views.pairs), with_lines=any(picture.line for picture in pictures), with_band=any(picture.band for picture in pictures),
-                tables=[("The tumour" if views.origin == "given" else "The artificial tumour", tumour), ("The breast", breast), ("The patient's mammograms", facts_of_patient(views.patients))],
-                data=_data(views), scripts=scripts)
+                answer_title=_answer_title(views), answer=_answer(views, lines), pictures=pictures, patients=patients,
+                bar_mm=BAR_MM, pair_mm=f"{pair:.1f}",
+                row_mm=f"{max(sum(widths), pair):.1f}", animations=_animations(run), tables=_tables(run, views), data=_data(views),
+                scripts=scripts, tumour_words=_TUMOUR_WORDS[views.origin],
+                tumour_kind="artificial" if views.origin == "artificial" else "tumour", with_views=bool(views.pairs),
+                with_lines=any(picture.line for picture in pictures), with_band=any(picture.band for picture in pictures))
     if len(made) > LARGEST_PAGE:
         raise BreastError(f"the page would have {len(made) // 1000000} MB, at most {LARGEST_PAGE // 1000000} allowed; use a larger "
                           "--pitch of match-lookup, or show no scan")
     return made
+
+
+def _tables(run: Path, views: Views) -> list[tuple[str, list[Fact]]]:
+    """What is said in numbers: captions and rows."""
+    from .facts import facts_of_breast, facts_of_patient, facts_of_tumour
+
+    grid = views.scan.grid if views.scan is not None else None
+    tumour = facts_of_tumour(views.body, views.pairs, views.labels, grid) if views.origin != "none" else []
+    compressions = [StageReport.read(state.file.with_suffix(".json")) for _, state in views.pairs]
+    return [("The tumour" if views.origin == "given" else "The artificial tumour", tumour),
+            ("The breast", facts_of_breast(StageReport.read(run / "labels.json"), compressions)),
+            ("The patient's mammograms", facts_of_patient(views.patients))]
 
 
 def _title(views: Views) -> str:
@@ -191,18 +199,19 @@ def _answer(views: Views, lines: list[MatchedLine | None]) -> list[str]:
         return ["Without both views no place of one view can be found in the other."]
     names = [image.view for image, _ in views.pairs]
     if views.origin == "none":
-        return [f"No tumour was given for this breast. Point at any place of {names[0]} or {names[1]} below to see on which line of the other "
-                "view it lies."]
+        return [f"No tumour was given for this breast. Point at any place of {names[0]} or {names[1]} below to see on which line of the "
+                "other view it lies."]
     the = "The tumour" if views.origin == "given" else "The artificial tumour"
     said = []
     for (here, there), line in zip((names, names[::-1]), lines[::-1]):
         if line is None:
-            said.append(f"{the} does not lie in the {here} image but behind its back edge, or beside the breast: nothing is said about {there} "
-                        f"from {here} alone.")
+            said.append(f"{the} does not lie in the {here} image but behind its back edge, or beside the breast: nothing is said about "
+                        f"{there} from {here} alone.")
             continue
         sides = (f", up to {line.to_either_side_mm:.0f} mm to either side of it (90 %)" if line.to_either_side_mm > 0 else
                  "; how far to either side of it is not known for this run")
-        said.append(f"{the}, seen in {here} alone, lies in {there} somewhere on a line of {line.length_mm:.0f} mm{sides}. {line.remark()}".strip())
+        said.append(f"{the}, seen in {here} alone, lies in {there} somewhere on a line of {line.length_mm:.0f} mm{sides}. "
+                    f"{line.remark()}".strip())
     without = _not_counted(views)
     if without and any(line and line.to_either_side_mm > 0 for line in lines):
         said.append(f"Not counted in the 90 %: {without}.")
