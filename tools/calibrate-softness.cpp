@@ -23,7 +23,7 @@ struct Choices {
   Observed pressing = PressedBreast{}.pressure;
   std::vector<double> expected, pressure;
   std::optional<double> law_ln_sd;
-  double kept = 5, smoothing = 0.02, prestretch = 3;
+  double kept = 5, smoothing = 0.02, prestretch = 3, corner_bulk = 0;
   CompressionChoices press;
 
   Choices() {
@@ -76,6 +76,10 @@ void declare(Tool& tool, Choices& c) {
   tool.number(c.data.muscle_stiffness, "--muscle-stiffness", "FACTOR",
               "stiffness of muscle relative to fibroglandular tissue (default: the law of the set)",
               0.1, 1000);
+  tool.number(c.corner_bulk, "--corner-bulk", "PA",
+              "bulk modulus with which the corners of elements resist large changes of volume, "
+              "for all tissues except skin",
+              0, 1e9);
   tool.number(c.kept, "--skin-compression", "PERCENT",
               "share of the skin's stiffness that remains in compression", 0.1, 100);
   tool.number(c.smoothing, "--skin-smoothing", "WIDTH",
@@ -178,6 +182,10 @@ void run_calibration(const Choices& c, Run& run) {
   MaterialSet base = load_materials(c.from);
   base.skin = {c.kept / 100, c.smoothing, c.prestretch / 100};
   check_skin(base.skin, "skin");
+  if (c.corner_bulk > 0) {
+    base.corner_bulk.fill(c.corner_bulk);
+    base.corner_bulk[std::size_t(Tissue::skin)] = 0;
+  }
   const SoftnessFound found = calibrate_softness(base, data, run.progress());
   if (!found.fit.converged) run.warn("the calibration stopped before its parameters settled");
   write_table(c.set, material_table(found.materials));

@@ -40,6 +40,15 @@ void read_skin(const Table& table, std::size_t row, const std::string& where, Sk
   check_skin(skin, where);
 }
 
+double read_corner_bulk(const Table& table, std::size_t row, const std::string& where) {
+  constexpr double most = 1e9;
+  const double bulk = optional_number(table, row, "corner_bulk_Pa").value_or(0);
+  if (!(bulk >= 0 && bulk <= most)) {
+    throw input_error(where, ": corner_bulk_Pa ", bulk, " must lie in 0 to ", most);
+  }
+  return bulk;
+}
+
 /// Rows "wall" and "cut" with the law "support".
 bool read_support(const Table& table, std::size_t row, const std::string& name, MaterialSet& set) {
   if (table.cell(row, "law") != "support") return false;
@@ -104,6 +113,7 @@ MaterialSet read_materials(const Table& table, const std::string& name) {
       throw input_error(where, ": density ", density, " g/mm^3 must lie in 0 to 0.1 (water 0.001)");
     }
     set.density[tissue] = density;
+    set.corner_bulk[tissue] = read_corner_bulk(table, row, where);
   }
   set.uncertainty = read_uncertainty(table, name);
   const auto fill = [&](Tissue to, Tissue from) {
@@ -114,6 +124,7 @@ MaterialSet read_materials(const Table& table, const std::string& name) {
     }
     set.laws[t] = set.laws[f];
     set.density[t] = set.density[f];
+    set.corner_bulk[t] = set.corner_bulk[f];
     given[t] = true;
   };
   fill(Tissue::fibroglandular, Tissue::fibroglandular);
@@ -200,6 +211,8 @@ Row law_row(const MaterialSet& set, Tissue tissue) {
   row["density_g_per_mm3"] = format_number(set.density[std::size_t(tissue)]);
   for (std::size_t k = 0; k < law.constants.size(); ++k)
     row[law.kind->constants[k].column()] = format_number(law.constants[k]);
+  const double corner_bulk = set.corner_bulk[std::size_t(tissue)];
+  if (corner_bulk > 0) row["corner_bulk_Pa"] = format_number(corner_bulk);
   if (tissue == Tissue::skin) {
     row["compression_percent"] = percent_text(set.skin.kept);
     row["smoothing"] = format_number(set.skin.smoothing);
@@ -247,8 +260,8 @@ Table material_table(const MaterialSet& set) {
       if (!table.has(constant.column())) table.columns.push_back(constant.column());
     }
   }
-  for (const char* column :
-       {"compression_percent", "smoothing", "prestretch_percent", "support", "ln_sd"})
+  for (const char* column : {"corner_bulk_Pa", "compression_percent", "smoothing",
+                             "prestretch_percent", "support", "ln_sd"})
     table.columns.push_back(column);
   for (const std::string& name : set.uncertainty.parameters)
     table.columns.push_back("correlation_" + name);

@@ -36,15 +36,19 @@ struct MaterialSet {
   std::string name;
   std::array<Law, n_tissues> laws;
   std::array<double, n_tissues> density;  ///< g/mm^3
+  /// Bulk modulus with which the corners of an element resist changes of volume, Pa; 0: they do not
+  /// (mechanics/terms/corner_volume.hpp).
+  std::array<double, n_tissues> corner_bulk{};
   SkinBehaviour skin;
   /// Supports of chest wall and cut with which the set was identified, as the command line takes them
   /// (mechanics/supports); if empty, the wall is held and the cut free.
   std::string wall, cut;
   SoftnessUncertainty uncertainty;
   const Law& law(Tissue t) const { return laws[static_cast<std::size_t>(t)]; }
-  /// Whether two tissues have the same law and density.
+  /// Whether two tissues have the same law, density and resistance of corners.
   bool alike(Tissue a, Tissue b) const {
-    return law(a) == law(b) && density[std::size_t(a)] == density[std::size_t(b)];
+    const auto i = std::size_t(a), j = std::size_t(b);
+    return laws[i] == laws[j] && density[i] == density[j] && corner_bulk[i] == corner_bulk[j];
   }
 };
 

@@ -3,6 +3,7 @@
 // forward, R(X, x, p) = 0 with x given, so that forward returns the imaged shape to rounding error.
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "core/error.hpp"
 #include "mechanics/backward_steps.hpp"
@@ -26,7 +27,13 @@ class BackwardSolve {
         loaded_(scene_.problem(Eigen::VectorXd::Zero(3L * mesh.nodes()))),
         solver_(loaded_.problem.space().pattern, scene_.solid().solver()),
         steps_(loaded_, solver_, solve_reference_by(solver_), fail_fast, "backward", found_,
-               progress) {}
+               progress) {
+    if (!scene_.corners_resist()) return;
+    freed_ = std::make_unique<LoadedProblem>(
+        scene_.problem_with_free_corners(Eigen::VectorXd::Zero(3L * mesh.nodes())));
+    free_steps_ = std::make_unique<BackwardSteps>(*freed_, solver_, solve_reference_by(solver_),
+                                                  fail_fast, "backward", found_, progress);
+  }
 
   Equilibrium run(const Vec3& gravity);
   /// Whether a body that is stable in the imaged shape is found in one step.
@@ -34,7 +41,8 @@ class BackwardSolve {
 
  private:
   State guess() const { return {imaged_, imaged_, scene_.solid().rest_pressure()}; }
-  bool stands_under(const Eigen::VectorXd& load) { return steps_.stands(load, guess()); }
+  State start(const Eigen::VectorXd& load);
+  bool stands_under(const Eigen::VectorXd& load) { return steps_.stands(load, start(load)); }
   double stable_part(const Eigen::VectorXd& load, double reached, bool stable);
   void find_needed_stiffness(const Eigen::VectorXd& load);
   Equilibrium finish(const State& state);
@@ -47,7 +55,18 @@ class BackwardSolve {
   LoadedProblem loaded_;
   SaddleSolver solver_;
   BackwardSteps steps_;
+  // The same body with corners that do not resist; null if they never do.
+  std::unique_ptr<LoadedProblem> freed_;
+  std::unique_ptr<BackwardSteps> free_steps_;
 };
+
+// Corners resist the changes of volume that a linear step of the whole way makes, so that Newton's steps
+// from the imaged shape would be short (14 to 58 in place of 12): the body first yields there.
+State BackwardSolve::start(const Eigen::VectorXd& load) {
+  State state = guess();
+  if (free_steps_) free_steps_->approach(load, state);
+  return state;
+}
 
 // Stiffnesses times s under the full load are the same problem as the part 1/s of the load. Finds
 // the largest part, within 10 %, for which the body exists and is stable in the imaged shape.
@@ -83,7 +102,7 @@ Equilibrium BackwardSolve::finish(const State& state) {
 
 Equilibrium BackwardSolve::run(const Vec3& gravity) {
   const Eigen::VectorXd load = scene_.gravity_force(gravity);
-  State state = guess();
+  State state = start(load);
   steps_.run(load, state);
   if (!found_.stable && !fail_fast_) {
     SaddleMatrix& matrix = steps_.inverse().lend_matrix();

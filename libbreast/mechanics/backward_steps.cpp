@@ -39,12 +39,21 @@ bool BackwardSteps::stands(const Eigen::VectorXd& load, State state) {
   return attempt(state, 0, 1).converged && stays(state);
 }
 
-void BackwardSteps::run(const Eigen::VectorXd& load, State& state) {
+LoadReached BackwardSteps::follow(const Eigen::VectorXd& load, State& state) {
   LoadSteps steps;
   steps.divide = !fail_fast_;
   steps.set_load = [&](double part) { loaded_.set_load(part * load); };
   steps.solve = [&](State& trial, double from, double to) { return attempt(trial, from, to); };
-  const LoadReached reached = follow_load(steps, state);
+  return follow_load(steps, state);
+}
+
+void BackwardSteps::approach(const Eigen::VectorXd& load, State& state) {
+  State near = state;
+  if (follow(load, near).whole()) state = std::move(near);
+}
+
+void BackwardSteps::run(const Eigen::VectorXd& load, State& state) {
+  const LoadReached reached = follow(load, state);
   found_.stable = reached.part > 0 ? stays(state) : true;
   judge(reached);
 }

@@ -20,11 +20,15 @@ class BackwardSteps {
   /// Increases the load from `state` to `load` (nodal forces, µN) and judges the last solution, which
   /// `state` then is.
   void run(const Eigen::VectorXd& load, State& state);
+  /// As run, without a judgement: the result is only an approximation from which another solve starts.
+  /// `state` changes only if the whole load is reached.
+  void approach(const Eigen::VectorXd& load, State& state);
   /// Whether a body that is stable in the imaged shape is found in one step under `load`.
   bool stands(const Eigen::VectorXd& load, State state);
   InverseSolver& inverse() { return inverse_; }
 
  private:
+  LoadReached follow(const Eigen::VectorXd& load, State& state);
   NewtonResult attempt(State& state, double from, double to);
   bool stays(const State& state);
   void judge(const LoadReached& reached);

@@ -92,6 +92,8 @@ void compare_tissue(const MaterialSet& used, const MaterialSet& other, Tissue ti
   compare_laws(name, used.law(tissue), other.law(tissue), differences);
   differences.add(name + ".density", used.density[std::size_t(tissue)],
                   other.density[std::size_t(tissue)], " g/mm3");
+  differences.add(name + ".corner_bulk", used.corner_bulk[std::size_t(tissue)],
+                  other.corner_bulk[std::size_t(tissue)], " Pa");
 }
 
 }  // namespace

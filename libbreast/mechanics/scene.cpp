@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "mechanics/terms/corner_volume.hpp"
 #include "mechanics/terms/membrane.hpp"
 #include "mesh/nodal.hpp"
 #include "surface/thorax.hpp"
@@ -68,6 +69,7 @@ Scene::Scene(const HexMesh& mesh, const MechanicsOptions& options, PartOfBody pa
 
 void Scene::add_terms(TangentStorage storage, const std::vector<int>& sliding) {
   solid_ = make_solid(mesh_, options_, storage);
+  corners_ = make_corner_volume(mesh_, options_, *solid_->space());
   if (mesh_.skin_model == SkinModel::membrane && !mesh_.skin_faces.empty()) {
     membrane_ = make_membrane(mesh_, options_, *solid_->space());
   }
@@ -111,9 +113,19 @@ double Scene::stiffness_force() const {
 }
 
 LoadedProblem Scene::problem(const Eigen::VectorXd& force) const {
+  return problem_with(corners_, force);
+}
+
+LoadedProblem Scene::problem_with_free_corners(const Eigen::VectorXd& force) const {
+  return problem_with(nullptr, force);
+}
+
+LoadedProblem Scene::problem_with(const std::shared_ptr<const Term>& corners,
+                                  const Eigen::VectorXd& force) const {
   LoadedProblem loaded{Problem(solid_->space(), walls_), std::make_shared<DeadLoad>(force),
                        stiffness_force()};
   loaded.problem.add(solid_);
+  if (corners) loaded.problem.add(corners);
   if (membrane_) loaded.problem.add(membrane_);
   for (const SupportEffects::Springs& springs : supports_.springs) loaded.problem.add(springs.term);
   loaded.problem.set_sliding(sliding_);

@@ -66,6 +66,10 @@ class Scene {
 
   /// Terms and constraints of this scene under nodal forces (µN, 3 per node).
   LoadedProblem problem(const Eigen::VectorXd& force) const;
+  /// The same, but the corners of elements do not resist changes of volume: a problem with a close
+  /// solution that is easier to find.
+  LoadedProblem problem_with_free_corners(const Eigen::VectorXd& force) const;
+  bool corners_resist() const { return corners_ != nullptr; }
   /// Nodal gravity forces, µN (3 per node), from the imaged shape, with those of the supports'
   /// loads. `gravity`: mm/s², LPS.
   Eigen::VectorXd gravity_force(const Vec3& gravity) const;
@@ -80,11 +84,14 @@ class Scene {
 
  private:
   double volume() const;
+  LoadedProblem problem_with(const std::shared_ptr<const Term>& corners,
+                             const Eigen::VectorXd& force) const;
   void add_terms(TangentStorage storage, const std::vector<int>& sliding);
 
   const HexMesh& mesh_;
   MechanicsOptions options_;
   std::shared_ptr<const Solid> solid_;
+  std::shared_ptr<const Term> corners_;  // null if they resist no change of volume
   std::shared_ptr<const Term> membrane_;
   SupportEffects supports_;
   std::shared_ptr<const SlidingNodes> sliding_;

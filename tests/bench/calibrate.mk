@@ -14,7 +14,7 @@ calibrate-invivo-borders: $(call population_files,$(population_women),mesh) $(CA
 	$(CALIBRATE_SOFTNESS) $(call population_files,$(population_women),mesh) --women $(PIPELINES)/invivo/women.tsv \
 	  --set $(POPULATION_RUNS)/invivo-borders.tsv --report $(POPULATION_RUNS)/calibration-invivo-borders.json --expected 7$(comma)1.1$(comma)700 \
 	  --law-ln-sd 0.2 --expected-ln-sd 0.7 --wall slide:0.002$(comma)L=20 \
-	  --cut spring:0.001$(comma)medial=0.1$(comma)superior=0.015$(comma)L=25 $(share)
+	  --cut spring:0.001$(comma)medial=0.1$(comma)superior=0.015$(comma)L=25 --corner-bulk 20000 $(share)
 	@{ echo '# Calibrated to the motion of living women (pipelines/invivo/women.tsv) by'; \
 	  echo '# make calibrate-invivo-borders on: $(population_women). Table II of Pathmanathan et al. 2008, scaled.'; \
 	  cat $(POPULATION_RUNS)/invivo-borders.tsv; } > $(PIPELINES)/materials/invivo-borders.tsv.part

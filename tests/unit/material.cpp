@@ -226,6 +226,7 @@ TEST(MaterialTable, ReadsBackAsWritten) {
   for (const std::string& name : material_set_names()) {
     MaterialSet set = load_materials(name);
     set.wall = "slide:0.0333", set.cut = "tissue:0.02,0.3";
+    set.corner_bulk[std::size_t(Tissue::muscle)] = 1234.5;
     set.uncertainty.parameters = {"low_order", "wall"};
     set.uncertainty.covariance.resize(2, 2);
     set.uncertainty.covariance << 0.25, -0.03, -0.03, 0.04;
@@ -238,6 +239,7 @@ TEST(MaterialTable, ReadsBackAsWritten) {
       EXPECT_EQ(back.law(tissue).constants, set.law(tissue).constants) << name;
     }
     EXPECT_EQ(back.density, set.density) << name;
+    EXPECT_EQ(back.corner_bulk, set.corner_bulk) << name;
     EXPECT_NEAR(back.skin.kept, set.skin.kept, 1e-15);
     EXPECT_EQ(back.wall, set.wall);
     EXPECT_EQ(back.cut, set.cut);

@@ -41,7 +41,7 @@ void PrintTo(const Named& named, std::ostream* out) {
 }
 
 Case body(Element element, double bulk_ratio, Invariants invariants, bool curved,
-          const std::string& wall = "spring:0.5,0.2") {
+          const std::string& wall = "spring:0.5,0.2", double corner_bulk = 0) {
   fixtures::BlockSettings settings;
   settings.elements = {2, 2, 2};
   settings.size = Vec3(20, 20, 20);
@@ -52,6 +52,7 @@ Case body(Element element, double bulk_ratio, Invariants invariants, bool curved
   out.mesh = fixtures::block(settings);
   MechanicsOptions options;
   options.materials = load_materials("seed2008");
+  options.materials.corner_bulk.fill(corner_bulk);
   options.element = element;
   options.bulk_ratio = bulk_ratio;
   options.invariants = invariants;
@@ -78,6 +79,15 @@ Case term_of_scene(const std::string& name, Element element = Element::q1p0, dou
   const LoadedProblem loaded = out.scene->problem(load);
   for (const auto& term : loaded.problem.terms()) {
     if (term->name() == name) out.term = term;
+  }
+  return out;
+}
+
+Case corner_volume() {
+  Case out = body(Element::q1p0, 0, Invariants::isochoric, false, "spring:0.5,0.2", 3000);
+  const LoadedProblem loaded = out.scene->problem(Eigen::VectorXd::Zero(3L * out.mesh.nodes()));
+  for (const auto& term : loaded.problem.terms()) {
+    if (term->name() == "corner volume") out.term = term;
   }
   return out;
 }
@@ -179,6 +189,7 @@ const std::vector<Named>& all_terms() {
       {"solid_q2p1", [] { return term_of_scene("solid", Element::q2p1); }},
       {"solid_compressible", [] { return term_of_scene("solid", Element::q1p0, 30); }},
       {"solid_plain", [] { return term_of_scene("solid", Element::q1p0, 0, Invariants::plain); }},
+      {"corner_volume", [] { return corner_volume(); }},
       {"membrane", [] { return term_of_scene("membrane"); }},
       {"membrane_q2", [] { return term_of_scene("membrane", Element::q2p1); }},
       {"membrane_wrinkling",

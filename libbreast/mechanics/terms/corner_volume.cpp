@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mechanics/terms/corner_volume.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/parallel.hpp"
+#include "fem/gather.hpp"
+#include "mesh/shape.hpp"
+
+namespace breast {
+
+namespace {
+
+constexpr int N = 8;  // nodes, which are the corners
+
+class CornerVolume final : public Term {
+ public:
+  CornerVolume(std::vector<double> bulk, const Discretisation& space);
+  std::string name() const override { return "corner volume"; }
+  bool add(const State& state, const Request& request, Forces& forces) const override;
+  std::vector<int> nodes() const override;
+
+ private:
+  using Column = Eigen::Matrix<double, 3 * N, 1>;
+  using Square = Eigen::Matrix<double, 3 * N, 3 * N>;
+  static constexpr int K = 9 * N * N;
+  struct Results;
+  bool element(int e, const State& state, CellMatrices* reference, Results& results) const;
+  void add_results(const Results& results, const Request& request, Forces& forces) const;
+
+  std::vector<double> bulk_;  // per element, Pa
+  Cells cells_;
+  std::shared_ptr<const ScatterMap> scatter_;
+  std::array<Eigen::Matrix<double, 3, N>, N> gradients_;  // ∂N/∂ξ at the corners
+};
+
+// Results of all elements are kept, so that sums are made in their order whatever the number of threads.
+struct CornerVolume::Results {
+  std::vector<double> matrices, residuals, energies;
+};
+
+CornerVolume::CornerVolume(std::vector<double> bulk, const Discretisation& space)
+    : bulk_(std::move(bulk)), cells_(space.cells) {
+  for (int c = 0; c < N; ++c)
+    gradients_[std::size_t(c)] = hex_shape(1, hex_node_local(1, c)).gradients;
+  if (space.pattern) scatter_ = std::make_shared<ScatterMap>(*space.pattern, cells_);
+}
+
+bool CornerVolume::element(int e, const State& state, CellMatrices* reference,
+                           Results& results) const {
+  const Eigen::Matrix<double, 3, N> before = gather<N>(cells_.cell(e), state.reference);
+  const Eigen::Matrix<double, 3, N> after = gather<N>(cells_.cell(e), state.x);
+  const bool tangent = !results.matrices.empty();
+  Square k = Square::Zero(), k_x = Square::Zero();
+  Column residual = Column::Zero();
+  double energy = 0;
+  for (const Eigen::Matrix<double, 3, N>& shape : gradients_) {
+    const Mat3 from = before * shape.transpose(), to = after * shape.transpose();
+    const double volume = from.determinant(), now = to.determinant();
+    if (!(volume > 0) || !(now > 0)) return false;
+    const double stiffness = bulk_[std::size_t(e)] * volume, strain = std::log(now / volume);
+    const double square = strain * strain;
+    // ∂ ln det(∂x/∂ξ)/∂x, component by component.
+    const Eigen::Matrix<double, 3, N> rate = to.inverse().transpose() * shape;
+    const Eigen::Map<const Column> flat(rate.data());
+    energy += 0.25 * stiffness * square * square;
+    residual += stiffness * square * strain * flat;
+    if (tangent) {
+      k.noalias() += 3 * stiffness * square * flat * flat.transpose();
+      for (int b = 0; b < N; ++b) {
+        for (int a = 0; a < N; ++a)
+          k.block<3, 3>(3 * a, 3 * b).noalias() -=
+              stiffness * square * strain * rate.col(b) * rate.col(a).transpose();
+      }
+    }
+    if (reference != nullptr) {
+      const Eigen::Matrix<double, 3, N> at_rest = from.inverse().transpose() * shape;
+      const Eigen::Map<const Column> flat_x(at_rest.data());
+      k_x.noalias() += stiffness * square * (strain - 3) * flat * flat_x.transpose();
+    }
+  }
+  results.energies[std::size_t(e)] = energy;
+  std::copy_n(residual.data(), 3 * N, results.residuals.data() + std::size_t(e) * 3 * N);
+  if (tangent) std::copy_n(k.data(), K, results.matrices.data() + std::size_t(e) * K);
+  if (reference != nullptr) std::copy_n(k_x.data(), K, reference->at(e));
+  return true;
+}
+
+bool CornerVolume::add(const State& state, const Request& request, Forces& forces) const {
+  const int count = cells_.count();
+  const bool tangent = request.matrix != nullptr || request.packed != nullptr;
+  CellMatrices* reference =
+      request.reference != nullptr ? &request.reference->next(cells_) : nullptr;
+  Results results;
+  results.matrices.resize(tangent ? std::size_t(count) * K : 0);
+  results.residuals.resize(std::size_t(count) * 3 * N);
+  results.energies.resize(std::size_t(count));
+  int bad = count;
+#pragma omp parallel for num_threads(threads()) schedule(static) reduction(min : bad)
+  for (int e = 0; e < count; ++e)
+    if (!element(e, state, reference, results)) bad = std::min(bad, e);
+  if (bad < count) {
+    forces.bad_element = bad;
+    return false;
+  }
+  add_results(results, request, forces);
+  return true;
+}
+
+void CornerVolume::add_results(const Results& results, const Request& request,
+                               Forces& forces) const {
+  const int count = cells_.count();
+  for (int e = 0; e < count; ++e) {
+    forces.energy += results.energies[std::size_t(e)];
+    for (int a = 0; a < 3 * N; ++a) {
+      const long to = 3L * cells_.cell(e)[a / 3] + a % 3;
+      const double value = results.residuals[std::size_t(e) * 3 * N + std::size_t(a)];
+      forces.r[to] += value;
+      if (request.kappa != nullptr) forces.augmented[to] += value;
+      if (request.matrix != nullptr) {
+        request.matrix->diagonal[to] +=
+            results.matrices[std::size_t(e) * K + std::size_t(a) * (3 * N + 1)];
+      }
+    }
+  }
+  if (request.matrix != nullptr) {
+    request.matrix->stiffness.add_cells(*scatter_, 0, count, results.matrices.data());
+  }
+  if (request.packed != nullptr) {
+    PackedCells& packed = request.packed->next(cells_);
+    for (int e = 0; e < count; ++e) packed.set(e, results.matrices.data() + std::size_t(e) * K);
+  }
+}
+
+std::vector<int> CornerVolume::nodes() const {
+  std::vector<int> all = cells_.nodes;
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+}  // namespace
+
+std::shared_ptr<const Term> make_corner_volume(const HexMesh& mesh, const MechanicsOptions& options,
+                                               const Discretisation& space) {
+  if (mesh.order != 1) return nullptr;
+  std::vector<double> bulk;
+  for (const Tissue tissue : mesh.tissue)
+    bulk.push_back(options.materials.corner_bulk[std::size_t(tissue)]);
+  if (std::all_of(bulk.begin(), bulk.end(), [](double k) { return k == 0; })) return nullptr;
+  return std::make_shared<CornerVolume>(std::move(bulk), space);
+}
+
+}  // namespace breast
