@@ -138,7 +138,6 @@ AlignedView::AlignedView(MammogramScan scan, SimulatedView simulated,
                          const std::optional<Vec2>& nipple, const std::string& where)
     : scan_(checked(std::move(scan), simulated, where)),
       simulated_(std::move(simulated)),
-      where_(where),
       hanging_(hanging_of(scan_, simulated_.pose, where)),
       alignment_(aligned(scan_, hanging_, simulated_, nipple, where)) {}
 
@@ -197,27 +196,32 @@ void AlignedView::report(Report& report) const {
   if (scan_.header.angle_deg) report.set(key + "header/angle_deg", *scan_.header.angle_deg);
 }
 
+// Sentences that a report keeps name no folder.
+std::string AlignedView::said_of() const {
+  return view_name(simulated_.compression.view) + " image: ";
+}
+
 std::vector<std::string> AlignedView::remarks() const {
   std::vector<std::string> remarks = scan_.header.remarks;
-  remarks.push_back(where_ + ": registered with its outline " +
+  remarks.push_back(said_of() + "registered with its outline " +
                     format_fixed(alignment_.residual_mm, 2) + " mm from the simulated one");
   return remarks;
 }
 
 std::vector<std::string> AlignedView::doubts() const {
   std::vector<std::string> doubts;
-  if (!hanging_.doubt.empty()) doubts.push_back(where_ + ": " + hanging_.doubt);
+  if (!hanging_.doubt.empty()) doubts.push_back(said_of() + hanging_.doubt);
   const auto differs = [&](const char* what, const std::optional<double>& header, double simulated,
                            double bound, const char* unit) {
     if (!header || !(std::abs(*header - simulated) > bound)) return;
-    doubts.push_back(where_ + ": " + what + " " + format_fixed(*header, 1) + unit +
+    doubts.push_back(said_of() + what + " " + format_fixed(*header, 1) + unit +
                      ", simulated with " + format_fixed(simulated, 1) + unit +
                      "; compress with --like this file");
   };
   differs("thickness", scan_.header.thickness_mm, simulated_.compression.thickness_mm, 5, " mm");
   differs("angle", scan_.header.angle_deg, simulated_.compression.angle_deg, 5, " degrees");
   if (alignment_.residual_mm > 5) {
-    doubts.push_back(where_ + ": outlines " + format_fixed(alignment_.residual_mm, 1) +
+    doubts.push_back(said_of() + "outlines " + format_fixed(alignment_.residual_mm, 1) +
                      " mm apart after registration: the simulated breast has a different shape");
   }
   return doubts;

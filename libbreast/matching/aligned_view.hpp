@@ -63,12 +63,12 @@ class AlignedView {
   std::vector<std::string> doubts() const;
 
  private:
+  std::string said_of() const;
   int block() const;
   bool left() const { return scan_.header.side == Side::left; }
 
   MammogramScan scan_;
   SimulatedView simulated_;
-  std::string where_;
   Hanging hanging_;
   Alignment alignment_;
 };

@@ -41,6 +41,10 @@ std::optional<double> MammogramFields::number(const char* key, const char* name,
   return all.empty() ? std::nullopt : std::optional(all.front());
 }
 
+void MammogramFields::remark(const std::string& text) {
+  remarks_.push_back(std::filesystem::path(where_).filename().string() + ": " + text);
+}
+
 Error MammogramFields::missing(const char* name, const std::string& value,
                                const char* expected) const {
   return input_error(where_, ": ", name, value.empty() ? " is missing" : " is \"" + value + "\"",

@@ -24,7 +24,8 @@ class MammogramFields {
   std::vector<double> numbers(const char* key, const char* name, double low, double high);
   /// The first of them.
   std::optional<double> number(const char* key, const char* name, double low, double high);
-  void remark(const std::string& text) { remarks_.push_back(where_ + ": " + text); }
+  /// A sentence that a report keeps: it names the file, but not its folder.
+  void remark(const std::string& text);
 
   Error missing(const char* name, const std::string& value, const char* expected) const;
   const std::string& where() const { return where_; }
