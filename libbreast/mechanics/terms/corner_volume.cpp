@@ -9,6 +9,7 @@
 #include "core/parallel.hpp"
 #include "fem/gather.hpp"
 #include "mesh/shape.hpp"
+#include "solve/cell_results.hpp"
 
 namespace breast {
 
@@ -21,25 +22,18 @@ class CornerVolume final : public Term {
   CornerVolume(std::vector<double> bulk, const Discretisation& space);
   std::string name() const override { return "corner volume"; }
   bool add(const State& state, const Request& request, Forces& forces) const override;
-  std::vector<int> nodes() const override;
+  std::vector<int> nodes() const override { return nodes_of_cells(cells_); }
 
  private:
   using Column = Eigen::Matrix<double, 3 * N, 1>;
   using Square = Eigen::Matrix<double, 3 * N, 3 * N>;
   static constexpr int K = 9 * N * N;
-  struct Results;
-  bool element(int e, const State& state, CellMatrices* reference, Results& results) const;
-  void add_results(const Results& results, const Request& request, Forces& forces) const;
+  bool element(int e, const State& state, CellMatrices* reference, CellResults& results) const;
 
   std::vector<double> bulk_;  // per element, Pa
   Cells cells_;
   std::shared_ptr<const ScatterMap> scatter_;
   std::array<Eigen::Matrix<double, 3, N>, N> gradients_;  // ∂N/∂ξ at the corners
-};
-
-// Results of all elements are kept, so that sums are made in their order whatever the number of threads.
-struct CornerVolume::Results {
-  std::vector<double> matrices, residuals, energies;
 };
 
 CornerVolume::CornerVolume(std::vector<double> bulk, const Discretisation& space)
@@ -50,10 +44,10 @@ CornerVolume::CornerVolume(std::vector<double> bulk, const Discretisation& space
 }
 
 bool CornerVolume::element(int e, const State& state, CellMatrices* reference,
-                           Results& results) const {
+                           CellResults& results) const {
   const Eigen::Matrix<double, 3, N> before = gather<N>(cells_.cell(e), state.reference);
   const Eigen::Matrix<double, 3, N> after = gather<N>(cells_.cell(e), state.x);
-  const bool tangent = !results.matrices.empty();
+  const bool tangent = results.with_tangent();
   Square k = Square::Zero(), k_x = Square::Zero();
   Column residual = Column::Zero();
   double energy = 0;
@@ -83,21 +77,17 @@ bool CornerVolume::element(int e, const State& state, CellMatrices* reference,
     }
   }
   results.energies[std::size_t(e)] = energy;
-  std::copy_n(residual.data(), 3 * N, results.residuals.data() + std::size_t(e) * 3 * N);
-  if (tangent) std::copy_n(k.data(), K, results.matrices.data() + std::size_t(e) * K);
+  std::copy_n(residual.data(), 3 * N, results.residual(e));
+  if (tangent) std::copy_n(k.data(), K, results.matrix(e));
   if (reference != nullptr) std::copy_n(k_x.data(), K, reference->at(e));
   return true;
 }
 
 bool CornerVolume::add(const State& state, const Request& request, Forces& forces) const {
   const int count = cells_.count();
-  const bool tangent = request.matrix != nullptr || request.packed != nullptr;
   CellMatrices* reference =
       request.reference != nullptr ? &request.reference->next(cells_) : nullptr;
-  Results results;
-  results.matrices.resize(tangent ? std::size_t(count) * K : 0);
-  results.residuals.resize(std::size_t(count) * 3 * N);
-  results.energies.resize(std::size_t(count));
+  CellResults results(cells_, request);
   int bad = count;
 #pragma omp parallel for num_threads(threads()) schedule(static) reduction(min : bad)
   for (int e = 0; e < count; ++e)
@@ -106,40 +96,8 @@ bool CornerVolume::add(const State& state, const Request& request, Forces& force
     forces.bad_element = bad;
     return false;
   }
-  add_results(results, request, forces);
+  results.add_to(request, scatter_.get(), forces);
   return true;
-}
-
-void CornerVolume::add_results(const Results& results, const Request& request,
-                               Forces& forces) const {
-  const int count = cells_.count();
-  for (int e = 0; e < count; ++e) {
-    forces.energy += results.energies[std::size_t(e)];
-    for (int a = 0; a < 3 * N; ++a) {
-      const long to = 3L * cells_.cell(e)[a / 3] + a % 3;
-      const double value = results.residuals[std::size_t(e) * 3 * N + std::size_t(a)];
-      forces.r[to] += value;
-      if (request.kappa != nullptr) forces.augmented[to] += value;
-      if (request.matrix != nullptr) {
-        request.matrix->diagonal[to] +=
-            results.matrices[std::size_t(e) * K + std::size_t(a) * (3 * N + 1)];
-      }
-    }
-  }
-  if (request.matrix != nullptr) {
-    request.matrix->stiffness.add_cells(*scatter_, 0, count, results.matrices.data());
-  }
-  if (request.packed != nullptr) {
-    PackedCells& packed = request.packed->next(cells_);
-    for (int e = 0; e < count; ++e) packed.set(e, results.matrices.data() + std::size_t(e) * K);
-  }
-}
-
-std::vector<int> CornerVolume::nodes() const {
-  std::vector<int> all = cells_.nodes;
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  return all;
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "fem/gather.hpp"
 #include "fem/membrane_kernel.hpp"
 #include "mesh/nodal.hpp"
+#include "solve/cell_results.hpp"
 
 namespace breast {
 
@@ -23,28 +24,19 @@ class MembraneOf final : public Term {
   MembraneOf(const HexMesh& mesh, const MechanicsOptions& options, const Discretisation& space);
   std::string name() const override { return "membrane"; }
   bool add(const State& state, const Request& request, Forces& forces) const override;
-  std::vector<int> nodes() const override;
+  std::vector<int> nodes() const override { return nodes_of_cells(cells_); }
 
  private:
   using Volumes = Eigen::Matrix<double, QuadRule<F>::points, 1>;
   static constexpr int K = 9 * F * F;
-  struct Results;
   bool face(int f, const State& state, const Request& request, CellMatrices* reference,
-            Results& results) const;
-  void add_results(const Results& results, const Request& request, Forces& forces) const;
+            CellResults& results) const;
 
   Law law_;
   SkinBehaviour skin_;
   Cells cells_;
   std::shared_ptr<const ScatterMap> scatter_;
   std::vector<Volumes, Eigen::aligned_allocator<Volumes>> volume_;  // of skin, per Gauss point
-};
-
-// Results of all faces are kept, so that sums are made in face order whatever the number of
-// threads.
-template <int F>
-struct MembraneOf<F>::Results {
-  std::vector<double> matrices, residuals, energies;
 };
 
 template <int F>
@@ -71,7 +63,7 @@ MembraneOf<F>::MembraneOf(const HexMesh& mesh, const MechanicsOptions& options,
 
 template <int F>
 bool MembraneOf<F>::face(int f, const State& state, const Request& request, CellMatrices* reference,
-                         Results& results) const {
+                         CellResults& results) const {
   MembraneInput<F> in;
   MembraneOutput<F> out;
   in.reference = gather<F>(cells_.cell(f), state.reference);
@@ -79,12 +71,12 @@ bool MembraneOf<F>::face(int f, const State& state, const Request& request, Cell
   in.volume = volume_[f];
   in.law = &law_;
   in.skin = skin_;
-  membrane_kernel<F>(in, {!results.matrices.empty(), request.reference != nullptr}, out);
+  membrane_kernel<F>(in, {results.with_tangent(), request.reference != nullptr}, out);
   if (!out.valid) return false;
   results.energies[f] = out.energy;
-  std::copy_n(out.residual.data(), 3 * F, results.residuals.data() + std::size_t(f) * 3 * F);
-  if (!results.matrices.empty()) {
-    std::copy_n(out.k.data(), K, results.matrices.data() + std::size_t(f) * K);
+  std::copy_n(out.residual.data(), 3 * F, results.residual(f));
+  if (results.with_tangent()) {
+    std::copy_n(out.k.data(), K, results.matrix(f));
   }
   if (reference != nullptr) std::copy_n(out.k_x.data(), K, reference->at(f));
   return true;
@@ -93,51 +85,14 @@ bool MembraneOf<F>::face(int f, const State& state, const Request& request, Cell
 template <int F>
 bool MembraneOf<F>::add(const State& state, const Request& request, Forces& forces) const {
   const int count = cells_.count();
-  const bool tangent = request.matrix != nullptr || request.packed != nullptr;
   CellMatrices* reference =
       request.reference != nullptr ? &request.reference->next(cells_) : nullptr;
-  Results results;
-  results.matrices.resize(tangent ? std::size_t(count) * K : 0);
-  results.residuals.resize(std::size_t(count) * 3 * F);
-  results.energies.resize(std::size_t(count));
+  CellResults results(cells_, request);
   bool valid = true;
 #pragma omp parallel for num_threads(threads()) schedule(static) reduction(&& : valid)
   for (int f = 0; f < count; ++f) valid = face(f, state, request, reference, results) && valid;
-  if (valid) add_results(results, request, forces);
+  if (valid) results.add_to(request, scatter_.get(), forces);
   return valid;
-}
-
-template <int F>
-void MembraneOf<F>::add_results(const Results& results, const Request& request,
-                                Forces& forces) const {
-  const int count = cells_.count();
-  for (int f = 0; f < count; ++f) {
-    forces.energy += results.energies[f];
-    for (int a = 0; a < 3 * F; ++a) {
-      const long to = 3L * cells_.cell(f)[a / 3] + a % 3;
-      const double value = results.residuals[std::size_t(f) * 3 * F + a];
-      forces.r[to] += value;
-      if (request.kappa != nullptr) forces.augmented[to] += value;
-      if (request.matrix != nullptr) {
-        request.matrix->diagonal[to] += results.matrices[std::size_t(f) * K + a * (3 * F + 1)];
-      }
-    }
-  }
-  if (request.matrix != nullptr) {
-    request.matrix->stiffness.add_cells(*scatter_, 0, count, results.matrices.data());
-  }
-  if (request.packed != nullptr) {
-    PackedCells& packed = request.packed->next(cells_);
-    for (int f = 0; f < count; ++f) packed.set(f, results.matrices.data() + std::size_t(f) * K);
-  }
-}
-
-template <int F>
-std::vector<int> MembraneOf<F>::nodes() const {
-  std::vector<int> all = cells_.nodes;
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  return all;
 }
 
 }  // namespace
