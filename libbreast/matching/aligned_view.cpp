@@ -29,14 +29,19 @@ MammogramScan checked(MammogramScan scan, const SimulatedView& simulated,
   return scan;
 }
 
+/// The beginning of sentences that a report keeps: they name no folder.
+std::string image_of(View view) {
+  return view_name(view) + " image: ";
+}
+
 /// Turns the grey values where the image shows that its header states them inverted.
 std::optional<AirSeen> with_dark_air(MammogramScan& scan, const ImageField& field,
                                      const std::string& where) {
   const std::optional<AirSeen> air = seen_air(scan, field, where);
   if (air && air->bright) {
     for (float& value : scan.grey) value = 1 - value;
-    scan.header.remarks.push_back(where +
-                                  ": its grey values are inverted: its air is bright, although it "
+    scan.header.remarks.push_back(image_of(scan.header.view) +
+                                  "its grey values are inverted: its air is bright, although it "
                                   "states " +
                                   (scan.header.bright_is_low ? "MONOCHROME1" : "MONOCHROME2"));
   }
@@ -196,32 +201,28 @@ void AlignedView::report(Report& report) const {
   if (scan_.header.angle_deg) report.set(key + "header/angle_deg", *scan_.header.angle_deg);
 }
 
-// Sentences that a report keeps name no folder.
-std::string AlignedView::said_of() const {
-  return view_name(simulated_.compression.view) + " image: ";
-}
-
 std::vector<std::string> AlignedView::remarks() const {
   std::vector<std::string> remarks = scan_.header.remarks;
-  remarks.push_back(said_of() + "registered with its outline " +
+  remarks.push_back(image_of(scan_.header.view) + "registered with its outline " +
                     format_fixed(alignment_.residual_mm, 2) + " mm from the simulated one");
   return remarks;
 }
 
 std::vector<std::string> AlignedView::doubts() const {
   std::vector<std::string> doubts;
-  if (!hanging_.doubt.empty()) doubts.push_back(said_of() + hanging_.doubt);
+  if (!hanging_.doubt.empty()) doubts.push_back(image_of(scan_.header.view) + hanging_.doubt);
   const auto differs = [&](const char* what, const std::optional<double>& header, double simulated,
                            double bound, const char* unit) {
     if (!header || !(std::abs(*header - simulated) > bound)) return;
-    doubts.push_back(said_of() + what + " " + format_fixed(*header, 1) + unit +
+    doubts.push_back(image_of(scan_.header.view) + what + " " + format_fixed(*header, 1) + unit +
                      ", simulated with " + format_fixed(simulated, 1) + unit +
                      "; compress with --like this file");
   };
   differs("thickness", scan_.header.thickness_mm, simulated_.compression.thickness_mm, 5, " mm");
   differs("angle", scan_.header.angle_deg, simulated_.compression.angle_deg, 5, " degrees");
   if (alignment_.residual_mm > 5) {
-    doubts.push_back(said_of() + "outlines " + format_fixed(alignment_.residual_mm, 1) +
+    doubts.push_back(image_of(scan_.header.view) + "outlines " +
+                     format_fixed(alignment_.residual_mm, 1) +
                      " mm apart after registration: the simulated breast has a different shape");
   }
   return doubts;

@@ -63,7 +63,6 @@ class AlignedView {
   std::vector<std::string> doubts() const;
 
  private:
-  std::string said_of() const;
   int block() const;
   bool left() const { return scan_.header.side == Side::left; }
 
