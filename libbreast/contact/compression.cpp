@@ -183,7 +183,7 @@ void Compression::close_plates(State& state) {
   if (options_.states > 0 && usable) solve_states(path, *contact);
 }
 
-/// The states on the way, and the result as the last of them.
+/// Solves for the states on the way; the result is the last of them.
 void Compression::solve_states(const PathOptions& path, ContactSolver& contact) {
   Timer::Scope phase(found_.timer, "states");
   const int factorisations = solver_.factorisations();

@@ -73,10 +73,10 @@ struct CompressionResult : Equilibrium {
   std::vector<ClosingState> states;
 };
 
-/// Compresses mesh.reference. A compression that stops early returns its last equilibrium with the
-/// status stopped_early and the reason, and one that does not grip the breast the status not_gripped; if gravity alone does not converge, the status is
-/// not_converged. Throws Error (input) when the plates miss the breast or an option is out of
-/// range.
+/// Compresses mesh.reference. A compression that stops early returns its last equilibrium with the status
+/// stopped_early and the reason, and one that does not grip the breast the status not_gripped; if gravity
+/// alone does not converge, the status is not_converged. Throws Error (input) when the plates miss the breast
+/// or an option is out of range.
 CompressionResult compress(const HexMesh& mesh, const CompressionOptions& options,
                            const MechanicsOptions& mechanics, Progress& progress = no_progress());
 

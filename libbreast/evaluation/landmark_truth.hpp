@@ -25,10 +25,10 @@ struct TrueLandmark {
   std::map<std::string, TruePosition> at;
 };
 
-/// Rows of one side from a truth table (phantom --truth DIR writes it as landmarks.tsv: landmark,
-/// side, {stress_free,prone,supine}_{x,y,z}_mm; truth-table adds {cc,mlo,ml}_{x,y,z}_mm and
-/// POSTURE_own_error_mm). The prone positions are required, the others are read where they are given. The table must have been read with its number of rows. Throws Error
-/// (input) beginning with `name`.
+/// Rows of one side from a truth table (phantom --truth DIR writes it as landmarks.tsv: landmark, side,
+/// {stress_free,prone,supine}_{x,y,z}_mm; truth-table adds {cc,mlo,ml}_{x,y,z}_mm and POSTURE_own_error_mm).
+/// The prone positions are required, the others are read where they are given. The table must have been read
+/// with its number of rows. Throws Error (input) beginning with `name`.
 std::vector<TrueLandmark> true_landmarks(const Table& table, Side side, const std::string& name);
 
 /// The posture of a mesh: "prone" (imaged), "stress_free", "supine" or, if compressed, its view in

@@ -59,9 +59,9 @@ std::string tagged_scan(const std::vector<Segment>& segments);
 Segment segment_of(Tissue tissue);
 
 /// Maps values to tissues: by --code, otherwise by the tag of segments_of, otherwise by the preset's names,
-/// otherwise by name, ignoring case and the _1 that 3D Slicer adds ("Chest wall", "Skin", "Gland", "Tumor" ...). Throws Error (input) beginning with
-/// `name` for a segment that none of these identifies, and for one that `codes` names but the file
-/// does not have, listing the existing segments and the known names.
+/// otherwise by name, ignoring case and the _1 that 3D Slicer adds ("Chest wall", "Skin", "Gland", "Tumor"
+/// ...). Throws Error (input) beginning with `name` for a segment that none of these identifies, and for one
+/// that `codes` names but the file does not have, listing the existing segments and the known names.
 TissueCodes codes_of(const std::vector<Segment>& segments, const TissueCodes& codes,
                      const std::string& name);
 

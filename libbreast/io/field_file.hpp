@@ -13,8 +13,8 @@
 namespace breast {
 
 /// Three float32 per grid point (mm, LPS), kinds "vector domain domain domain"; "displacement field
-/// type:=resampling", and `notes`, as "key:=value" lines. Writes atomically; throws Error (failed) if the numbers of vectors and grid
-/// points differ.
+/// type:=resampling", and `notes`, as "key:=value" lines. Writes atomically; throws Error (failed) if the
+/// numbers of vectors and grid points differ.
 void write_field(const std::filesystem::path& file, const Grid& grid,
                  const std::vector<std::array<float, 3>>& vectors,
                  const std::vector<std::pair<std::string, std::string>>& notes);

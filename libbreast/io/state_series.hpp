@@ -18,7 +18,8 @@ namespace breast {
 /// A state as it stands in the table.
 struct SeriesRow {
   /// Quantities of this state, with their units in the names; the first is its place on the way, which
-  /// ParaView shows as time and which grows from state to state. The same names for all states. A value that is not finite is not known, its cell empty.
+  /// ParaView shows as time and which grows from state to state. The same names for all states. A value that
+  /// is not finite is not known, its cell empty.
   std::vector<std::pair<std::string, double>> quantities;
   SolveStatus status = SolveStatus::not_converged;
   double residual = 0;  ///< relative to the load

@@ -17,9 +17,9 @@ bool is_dicom_segmentation(const std::filesystem::path& file);
 /// pixels of another kind.
 SegmentedVolume read_dicom_segmentation(const std::filesystem::path& file);
 
-/// Writes the tissues that occur as a BINARY object of one bit per pixel, atomically. Segments are
-/// numbered from 1 in the order of tissue codes, and labelled by their names (segments_of). It states no patient and no study, which no file of
-/// libbreast does. Throws Error (input) for slices beyond what DICOM allows.
+/// Writes the tissues that occur as a BINARY object of one bit per pixel, atomically. Segments are numbered
+/// from 1 in the order of tissue codes, and labelled by their names (segments_of). It states no patient and
+/// no study, which no file of libbreast does. Throws Error (input) for slices beyond what DICOM allows.
 void write_dicom_segmentation(const std::filesystem::path& file, const LabelVolume& labels);
 
 }  // namespace breast
