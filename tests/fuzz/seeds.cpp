@@ -23,9 +23,6 @@ void save_document(const std::filesystem::path& file, const Document& document) 
 Document load_document(const std::filesystem::path& file, const std::string&, const std::string&) {
   return unpacked(read_text(file));
 }
-int threads() {
-  return 1;
-}
 Volume<float> read_volume(const std::filesystem::path&, const ScanChoice&, VolumeSource*) {
   return {};
 }

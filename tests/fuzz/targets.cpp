@@ -30,7 +30,6 @@
 #include "io/vtk/vtk_messages.hpp"
 #include "io/vtk/xml_check.hpp"
 #endif
-#include "material/embedded.hpp"
 #include "material/material_set.hpp"
 
 namespace breast {
@@ -154,20 +153,6 @@ Volume<float> read_volume(const std::filesystem::path& file, const ScanChoice&, 
   for (std::size_t v = 0; v < out.voxels.size(); ++v) out.voxels[v] = float(v % 7);
   return out;
 }
-// In place of the tables compiled into the programs, which are no input.
-const std::vector<EmbeddedTable>& embedded_materials() {
-  static const std::vector<EmbeddedTable> none;
-  return none;
-}
-// In place of export/deck/scene.cpp, which needs the mechanics: only applying a result asks for it.
-std::vector<int> deck_nodes(const HexMesh&) {
-  return {};
-}
-// In place of core/parallel.cpp, which needs OpenMP.
-int threads() {
-  return 1;
-}
-
 }  // namespace breast
 
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
