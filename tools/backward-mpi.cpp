@@ -38,6 +38,7 @@ void declare(Tool& tool, Choices& c) {
   tool.output(c.reference, "REFERENCE.vtkhdf", "the same mesh, stress-free");
   declare_gravity(tool, c.gravity, "direction of gravity during the scan");
   declare_mechanics(tool, c.mechanics, "MESH");
+  tool.basic({"--posture", "--gravity", "--materials", "--scale", "--element", "--wall", "--cut"});
   tool.example("mpirun -n 16 backward-mpi mesh.vtkhdf reference.vtkhdf", "on 16 processes");
 }
 

@@ -47,6 +47,7 @@ void declare(Tool& tool, Choices& c) {
   declare_gravity(tool, c.gravity, "direction of gravity during the scan");
   declare_mechanics(tool, c.mechanics, "MESH");
   declare_estimate(tool, c.estimate);
+  tool.basic({"--posture", "--gravity", "--materials", "--scale", "--element", "--wall", "--cut"});
   tool.example("backward mesh.vtkhdf reference.vtkhdf",
                "prone scan, a breast that slides on its chest wall");
   tool.example("backward mesh.vtkhdf reference.vtkhdf --materials seed2008",

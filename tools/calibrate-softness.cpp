@@ -40,7 +40,8 @@ void declare(Tool& tool, Choices& c) {
       "Calibrates a material set so that the breasts of a cohort move from prone to supine as "
       "women's breasts do on average. The parameters are the stiffness of fat and fibroglandular "
       "tissue (with separate factors for the linear and the quadratic terms of the law), the "
-      "stiffness of the skin, and the numbers of the supports of chest wall and cut. "
+      "stiffness of the skin, and the numbers of the supports of chest wall and cut.");
+  tool.describe(
       "The data are the rows of --women whose column `unmodelled_sd` holds a number: the standard deviation of "
       "what no model explains, such as the place of the arms, which is added to the standard error. Both breasts of "
       "one scan count as one woman. With --pressed, a further breast is "
@@ -87,6 +88,11 @@ void declare(Tool& tool, Choices& c) {
               0.5);
   tool.number(c.prestretch, "--skin-prestretch", "PERCENT",
               "stretch of the skin in the stress-free shape of the body", 0, 50);
+  tool.topic("prior", {"--expected", "--wall", "--cut", "--expected-ln-sd", "--law-ln-sd"});
+  tool.topic("compression", {"--pressed", "--pressure", "--reduction", "--image-edge"});
+  tool.topic("body", {"--muscle", "--muscle-stiffness", "--corner-bulk", "--skin-compression",
+                      "--skin-smoothing", "--skin-prestretch"});
+  tool.basic({"--pressed", "--from", "--expected", "--wall", "--cut", "--pressure", "--reduction"});
   tool.check([&c] {
     wall_support(c.data.expected.wall), cut_support(c.data.expected.cut);
     compression_options(c.press, posture_gravity(Posture::upright));

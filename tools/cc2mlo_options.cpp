@@ -112,6 +112,14 @@ void declare_match(Tool& tool, MatchChoices& choices) {
   declare_accept_other(tool, "cc2mlo", choices.accept_other);
   declare_images(tool, choices);
   tool.describe(default_priors_text());
+  tool.topic("the point",
+             {"--point", "--pair", "--supine", "--landmark", "--points", "--truth", "--grid"});
+  tool.topic("band", {"--band", "--priors", "--materials"});
+  tool.topic("the patient's mammograms",
+             {"--cc-image", "--mlo-image", "--cc-nipple", "--mlo-nipple", "--picture"});
+  tool.topic("further outputs", {"--table", "--curve-table"});
+  tool.basic({"--point", "--pair", "--landmark", "--points", "--band", "--cc-image", "--mlo-image",
+              "--picture", "--table", "--curve-table"});
   tool.check([&] { choices.check(); });
   tool.example("cc2mlo cc.vtkhdf mlo.vtkhdf curve.vtp --landmark tumour --table curve.tsv",
                "where the tumour seen in CC lies in MLO");

@@ -36,7 +36,9 @@ void declare(Tool& tool, Choices& c) {
       "pressure or a contact area; if several are given, the first one that is reached ends the "
       "compression. If none is given, the plates close as in screening, to a force of 110 N or to 35 "
       "mm, whichever comes first; a breast with a projection of less than 73 cm2 is given 1.5 N per "
-      "cm2 of it, but at least 50 N. With --image-edge, which is the default for a breast that slides on its chest "
+      "cm2 of it, but at least 50 N.");
+  tool.describe(
+      "With --image-edge, which is the default for a breast that slides on its chest "
       "wall, the plates are placed as in the clinic: their edge is close to the chest wall and "
       "parallel to it, element faces penetrate the plates by at most 0.05 "
       "mm, and friction holds the breast, which a hand supports until the plates grip it. "
@@ -63,8 +65,8 @@ void declare(Tool& tool, Choices& c) {
       "quarter of the smaller force, which means that a plate presses on the chest wall or the "
       "cut. When a compression stops early, reason is an identifier (folds_at_plate_edge, "
       "folds_on_chest_wall, folds_between_edge_and_wall, folds_between_plates, "
-      "folds_behind_plates; shrinks_at_plate_edge and so on, if an element shrinks too much instead "
-      "of folding; iteration_limit, "
+      "folds_behind_plates; the same with shrinks_ for an element that shrinks too much "
+      "without folding; iteration_limit, "
       "indefinite_tangent, no_admissible_step, solve_limit, out_of_reach, gravity_not_carried, "
       "pull_not_carried, no_equilibrium_at_touch, not_gripped) and explanation is a sentence.");
   tool.cite("Pathmanathan et al. 2008, section II-D, equations (7)-(8)");
@@ -99,9 +101,8 @@ void declare(Tool& tool, Choices& c) {
   tool.number(c.force, "--force", "N", "stop at this paddle force", 0.1, 1e5);
   tool.number(
       c.pressure, "--pressure", "KPA",
-      "stop at this mean pressure: the paddle's force divided by its contact area, which between "
-      "plates placed by the edge of the image counts as at least 25 cm2 and 40 % of the "
-      "breast's projection",
+      "stop at this mean pressure: the paddle's force divided by its contact area. With "
+      "--image-edge, the area counts as at least 25 cm2 and at least 40 % of the breast's projection",
       0.001, 1e4);
   tool.number(c.area, "--area", "CM2", "stop at this contact area of the paddle", 1e-3, 1e4);
   tool.input_file(c.like, "--like", "MG.dcm",
@@ -109,8 +110,8 @@ void declare(Tool& tool, Choices& c) {
                   "this mammogram; options given explicitly take precedence");
   tool.number(
       c.at_least, "--at-least", "PERCENT",
-      "accept a compression that stops early only if it reached this reduction (default: between "
-      "plates placed by the edge of the image any, otherwise the target's)",
+      "accept a compression that stops early only from this reduction on (default: any with "
+      "--image-edge, otherwise that of the target)",
       0, 100);
   tool.number(c.plates.standoff, "--standoff", "MM",
               "distance from the most anterior chest-wall or cut point to the plates' rounded edge "
@@ -118,13 +119,13 @@ void declare(Tool& tool, Choices& c) {
               0, 500);
   tool.text(
       c.image_edge, "--image-edge", "auto|MM",
-      "place the plates as in the clinic: distance from the most anterior point of the chest "
-      "wall behind the breast, or of the muscle in front of it, to the edge of the image, where "
-      "the rounded edge starts. auto is 5 for CC and 0 for MLO and ML; if the mesh has a layer of "
-      "muscle, the edge for MLO and ML lies behind the front of the muscle by 1.25 times the muscle's "
-      "thickness. This option changes the defaults of --turn, --lean, --edge-radius, --contact-points, --friction, "
-      "--positioning and --pull as stated there (default: auto for a breast that slides on its "
-      "chest wall, unless --standoff is given; otherwise the plates stand as --standoff says)");
+      "place the plates as in the clinic. The edge of the image, where the plates' rounded edge "
+      "starts, is this far in front of the chest wall behind the breast (its most anterior point), "
+      "or of the muscle on it. auto is 5 for CC and 0 for MLO and ML; on a mesh with a layer of "
+      "muscle, the edge for MLO and ML is 1.25 times the muscle's thickness behind the front of the "
+      "muscle. The defaults of --turn, --lean, --edge-radius, --contact-points, --friction, "
+      "--positioning and --pull depend on this option. By default it is auto for a breast that "
+      "slides on its chest wall; otherwise, or if --standoff is given, --standoff places the plates");
   tool.text(
       c.turn, "--turn", "auto|DEG",
       "turn the plates' edge by this angle towards the breast's side, about the patient's long "
@@ -133,8 +134,8 @@ void declare(Tool& tool, Choices& c) {
   tool.text(
       c.lean, "--lean", "auto|DEG",
       "turn the plates' edge by this angle about the beam, with its upper end backwards, as when "
-      "the upper corner of the detector lies in the axilla; auto is 0 for CC, and for MLO and ML 4 "
-      "degrees more than the angle of an edge parallel to the chest wall (default: auto with "
+      "the upper corner of the detector lies in the axilla. auto is 0 for CC; for MLO and ML it "
+      "makes the edge parallel to the chest wall and adds 4 degrees (default: auto with "
       "--image-edge, otherwise 0)");
   tool.choice(
       c.contact_points, "--contact-points", {"surface", "nodes"},
@@ -147,16 +148,16 @@ void declare(Tool& tool, Choices& c) {
   tool.number(
       c.pull, "--pull", "N",
       "pull the lifted breast forwards with this force, which decreases to zero as the plates "
-      "grip it (default: 30 if friction holds a breast lifted between plates placed by "
-      "--image-edge, otherwise 0)",
+      "grip it (default: 30 with --image-edge, if the breast is lifted and friction holds it; "
+      "otherwise 0)",
       0, 500);
   tool.number(
       c.plates.edge_at, "--edge-at", "MM",
-      "coordinate at which the rounded edge starts, along the depth of the plates, instead of a "
+      "where the rounded edge starts, as a coordinate along the depth of the plates; replaces the "
       "distance from the chest wall",
       -1e4, 1e4);
   tool.number(c.plates.middle_at, "--middle-at", "MM",
-              "coordinate, along the beam, of the plane about which the plates close", -1e4, 1e4);
+              "the plane about which the plates close, as a coordinate along the beam", -1e4, 1e4);
   tool.number(
       c.edge_radius, "--edge-radius", "MM",
       "radius of the plates' rounded edges, at least 1 (default: 3 for CC with --image-edge, otherwise "
@@ -175,17 +176,25 @@ void declare(Tool& tool, Choices& c) {
               "coefficient of Coulomb friction between skin and plates (default: 0.15 with "
               "--image-edge, otherwise 0)",
               0, 2);
+  declare_mechanics(tool, c.mechanics, "REFERENCE");
   tool.number(
       c.plate_step, "--plate-step", "MM",
-      "longest step by which the plates close (default: 0.07 of the initial thickness; with friction "
-      "in MLO and ML 0.006 of it while the hand that holds the breast is withdrawn)",
+      "longest step by which the plates close (default: 7 % of the initial thickness; in MLO and ML "
+      "with friction, 0.6 % as long as the hand is being withdrawn)",
       0.1, 1000);
   tool.choice(c.contact, "--contact", {"active-set", "al"},
               "contact algorithm: exact active set, or the paper's augmented Lagrangian");
-  declare_mechanics(tool, c.mechanics, "REFERENCE");
   declare_estimate(tool, c.estimate);
   declare_states(tool, c.states,
                  "while the plates close from first contact, in equal steps of thickness");
+  tool.topic("target", {"--thickness", "--reduction", "--force", "--pressure", "--area", "--like",
+                        "--at-least"});
+  tool.topic("plates", {"--standoff", "--image-edge", "--turn", "--lean", "--contact-points",
+                        "--positioning", "--pull", "--edge-at", "--middle-at", "--edge-radius",
+                        "--tilt", "--detector", "--friction"});
+  tool.topic("solver", {"--plate-step", "--contact"});
+  tool.basic({"--view", "--angle", "--thickness", "--reduction", "--force", "--pressure", "--like",
+              "--image-edge", "--friction", "--materials", "--keep-unconverged"});
   tool.check([&c] {
     parse_gravity(c.gravity);
     parse_detector(c.detector);

@@ -86,7 +86,9 @@ int main(int argc, char** argv) {
   Tool tool("evaluate", "agreement of a segmentation or a surface with the truth");
   tool.describe(
           "Compares two label volumes, two surfaces or point sets (.vtp), or a label volume and a "
-          "surface, and prints a table of quantities and values to stdout. For two label volumes, "
+          "surface, and prints a table of quantities and values to stdout.")
+      .describe(
+          "For two label volumes, "
           "the table contains the Dice coefficient and the volume of every tissue, of the breast "
           "(fat, fibroglandular tissue, skin and tumour together) and of the body (everything "
           "except air, where both volumes have voxels). It also contains the distance between the "

@@ -60,6 +60,8 @@ void declare(Tool& tool, Choices& c) {
                   "(CalculiX), .log (FEBio)");
   tool.input_file(c.base, "--base", "FILE.vtkhdf",
                   "with --read-back, the mesh with which the result is compared node by node");
+  tool.basic({"--posture", "--gravity", "--materials", "--element", "--bulk-ratio", "--wall",
+              "--cut", "--without-skin", "--calculix-element", "--read-back", "--base"});
   tool.check([&c] {
     const std::string ending = c.out.extension().string();
     const bool mesh = ending == ".vtkhdf";

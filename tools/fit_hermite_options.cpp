@@ -76,6 +76,7 @@ void declare_fit_hermite(Tool& tool, FitChoices& choices) {
               "refine the skin sheet until no point of the skin is farther from it than this", 0.05,
               100);
   declare_label_choices(tool, "fit-hermite", choices.foreign);
+  tool.basic({"--elements", "--smoothing", "--max-error"});
   tool.example("fit-hermite labels.vtkhdf geometry.vtkhdf",
                "10 x 10 patches or a few more, automatic smoothing");
   tool.example("fit-hermite labels.vtkhdf geometry.vtkhdf --max-error 1",

@@ -36,6 +36,7 @@ void declare(Tool& tool, Choices& c) {
   tool.output(c.deformed, "DEFORMED.vtkhdf", "the same mesh under gravity");
   declare_gravity(tool, c.gravity, "direction of gravity");
   declare_mechanics(tool, c.mechanics, "REFERENCE");
+  tool.basic({"--posture", "--gravity", "--materials", "--scale", "--element", "--wall", "--cut"});
   tool.example("mpirun -n 16 forward-mpi reference.vtkhdf supine.vtkhdf", "on 16 processes");
 }
 

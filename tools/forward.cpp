@@ -54,6 +54,7 @@ void declare(Tool& tool, Choices& c) {
       c.states_from, "--states-from", postures,
       "posture at which --states begins; between opposite directions the patient rolls over "
       "the side of the breast");
+  tool.basic({"--posture", "--gravity", "--materials", "--scale", "--element", "--wall", "--cut"});
   tool.check([&c] {
     if (c.states.number > 0 && (c.gravity.vector() - c.start()).norm() == 0)
       throw input_error("--states ", c.states.number, ": gravity does not turn from ",

@@ -111,6 +111,12 @@ void declare_hexmesh(Tool& tool, MeshChoices& choices) {
                    "tetrahedral mesh of the same body for other solvers, with about the edge "
                    "length of the hexahedra, and its boundary triangles; it has a tissue per "
                    "tetrahedron and a part per triangle as in --surface");
+  tool.topic("elements", {"--template", "--elements", "--dome", "--order", "--accept-mismatch"});
+  tool.topic("body", {"--skin", "--skin-as", "--muscle", "--surroundings"});
+  tool.topic("points to follow", {"--tumour", "--landmarks"});
+  tool.topic("further outputs", {"--surface", "--tetrahedra"});
+  tool.basic({"--elements", "--order", "--skin", "--muscle", "--surroundings", "--tumour",
+              "--landmarks", "--code", "--side"});
   tool.check([&] { choices.check(); });
   tool.example("hexmesh geometry.vtkhdf labels.vtkhdf mesh.vtkhdf",
                "about 4000 elements, skin as a membrane of 1.45 mm, artificial tumour");

@@ -84,7 +84,9 @@ void declare_data(Tool& tool, IdentifyChoices& c) {
 void declare_identify(Tool& tool, IdentifyChoices& c) {
   tool.describe(
       "Finds a patient's own stiffness: the material set with which her breast, imaged prone, "
-      "moves to its position observed in a second posture. The unknowns are factors (in "
+      "moves to its position observed in a second posture.");
+  tool.describe(
+      "The unknowns are factors (in "
       "logarithms) on parts of the material set: low_order (constants linear in the "
       "invariants, of fat and fibroglandular tissue alike), quadratic (the other constants), "
       "gland (additional factor for fibroglandular tissue, that is, the ratio of gland to fat), "
@@ -138,6 +140,15 @@ void declare_identify(Tool& tool, IdentifyChoices& c) {
                   "direction of gravity in the second posture, in the frame of the scan");
   declare_mechanics(tool, c.mechanics, "MESH");
   tool.cite("Moré 1978, the Levenberg-Marquardt algorithm: implementation and theory");
+  tool.topic("what was observed",
+             {"--landmarks", "--second-landmarks", "--nipple", "--surface", "--labels",
+              "--second-labels", "--judge", "--observer-error", "--surface-error", "--outside"});
+  tool.topic("a compression", {"--force-thickness", "--view", "--standoff", "--edge-radius"});
+  tool.topic("parameters", {"--parameters", "--prior", "--align", "--align-deviation", "--compare",
+                            "--max-pairs"});
+  tool.topic("further outputs", {"--table", "--seen", "--second"});
+  tool.basic({"--landmarks", "--second-landmarks", "--nipple", "--surface", "--labels",
+              "--second-labels", "--force-thickness", "--align", "--materials", "--table"});
   tool.check([&c] { c.check(); });
   tool.example(
       "identify mesh.vtkhdf patient.tsv --materials invivo --landmarks pairs.tsv --align "

@@ -72,6 +72,7 @@ void declare_label_choices(Tool& tool, const std::string& name, LabelChoices& ch
       "and what such a copy lacks (fibroglandular fraction where the tissue is unchanged, "
       "confidence of the chest wall, nipple, skin, midline) are taken from them");
   declare_accept_other(tool, name, choices.accept_other);
+  tool.topic("labels from another program", {"--code", "--side", "--native", "--accept-other"});
 }
 
 LabelVolume read_tissues(const fs::path& file, const TissueCodes& codes) {

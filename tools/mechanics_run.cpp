@@ -41,6 +41,7 @@ void declare_states(Tool& tool, StatesChoice& choice, const std::string& what) {
           "(states.tsv) and a series that ParaView opens as an animation "
           "(states.vtkhdf.series)",
       2, 200);
+  tool.basic({"--states"});
 }
 
 void MechanicsRun::put(const Equilibrium& found, HexMesh& mesh) const {

@@ -44,7 +44,8 @@ void declare(Tool& tool, Choices& c) {
   tool.describe(
       "Makes a bilateral breast MR (T1 without fat suppression unless --contrast says otherwise, "
       "512x512x60 voxels of 0.82x0.82x2.5 mm): breasts with skin, fat, an irregular fibroglandular tree and nipple "
-      "on a chest with pectoral muscle, ribs and lung; coil bias, partial volume, Rician noise. "
+      "on a chest with pectoral muscle, ribs and lung; coil bias, partial volume, Rician noise.");
+  tool.describe(
       "The prone shape is the equilibrium of a known stress-free shape under gravity, solved "
       "with 27-node elements on a mesh template that hexmesh does not use, so that the errors "
       "of the chain can be measured. Breasts of the presets average, slim, broad and heavy are "
@@ -94,6 +95,11 @@ void declare(Tool& tool, Choices& c) {
   tool.number(c.coarse, "--coarse", "FACTOR",
               "enlarge the voxels by this factor and, from 2 on, use a coarser mesh, for tests", 1,
               8);
+  tool.topic("scan", {"--dicom", "--bias", "--noise", "--contrast", "--muscle-over-fat", "--failed",
+                      "--fat", "--coarse"});
+  tool.topic("posture", {"--posture", "--misalign"});
+  tool.basic({"--truth", "--preset", "--seed", "--dicom", "--noise", "--contrast", "--fat",
+              "--posture", "--misalign", "--materials"});
   tool.check([&c] {
     if (!c.dicom.empty()) check_dicom_folder(c.dicom);
     check_contrast(c);

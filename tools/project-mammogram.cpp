@@ -90,8 +90,9 @@ int main(int argc, char** argv) {
       "Traces an X-ray through the compressed mesh to every pixel. With --labels each point of "
       "the ray is mapped back through its element to the MR scan and takes the tissue of the "
       "voxel there, so that the image has the detail of the scan; otherwise each element has "
-      "one tissue. The image ends where rays would leave the mesh through the chest wall. The "
-      "X-ray spectra are those of Boone, Fewell and Jennings (1997), filtered by 1 mm beryllium "
+      "one tissue. The image ends where rays would leave the mesh through the chest wall.");
+  tool.describe(
+      "The X-ray spectra are those of Boone, Fewell and Jennings (1997), filtered by 1 mm beryllium "
       "and 0.05 mm rhodium or 0.03 mm molybdenum; tissues have the composition given by "
       "Hammerstein (1979) and the cross sections of xraylib; the detector integrates energy and "
       "has no blur.");
@@ -133,6 +134,9 @@ int main(int argc, char** argv) {
               "for no noise",
               0, 1e9);
   tool.integer(choices.seed, "--seed", "N", "random seed of the noise", 0, 1000000000);
+  tool.topic("picture", {"--png", "--dicom", "--dicom-for", "--pixel"});
+  tool.topic("X-rays", {"--geometry", "--energy", "--scatter", "--photons", "--seed"});
+  tool.basic({"--labels", "--png", "--dicom", "--pixel", "--geometry", "--energy"});
   tool.check([&] {
     choices.exposure.seed = std::uint64_t(choices.seed);
     parse_energy(choices.energy);

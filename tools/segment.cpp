@@ -106,6 +106,11 @@ void declare(Tool& tool, Choices& c) {
               "move the chest wall by this many of its standard deviations (sigma_mm in --points), "
               "backwards if positive, to see the effect of its uncertainty",
               -3, 3);
+  tool.topic("contrast", {"--contrast", "--fat", "--fat-series", "--also", "--also-series"});
+  tool.topic("chest wall", {"--chest-wall", "--code", "--accept-other", "--chest-wall-shift"});
+  tool.topic("further outputs", {"--points", "--overlay", "--measures"});
+  tool.basic({"--side", "--posture", "--series", "--list", "--contrast", "--fat", "--also",
+              "--chest-wall", "--overlay", "--measures"});
   tool.check([&c] {
     parse_tissue_codes(c.codes);
     if (c.contrast == "dixon" && c.fat.empty())

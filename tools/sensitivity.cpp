@@ -57,6 +57,8 @@ void declare(Tool& tool, Choices& c) {
                    "the imaged position, and seconds (default: stdout)");
   declare_gravity(tool, c.imaged, "direction of gravity during the scan, as given to backward");
   declare_mechanics(tool, c.mechanics, "REFERENCE");
+  tool.basic({"--parameters", "--adjoint", "--table", "--posture", "--gravity", "--materials",
+              "--scale", "--element", "--wall", "--cut"});
   tool.cite(
       "Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), Tables III-VI (by solving again)");
   tool.example("sensitivity reference.vtkhdf supine.vtkhdf supine-sensitivity.vtkhdf",

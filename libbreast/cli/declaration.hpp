@@ -17,6 +17,8 @@ struct Argument {
   std::string placeholder;         ///< unit or meta-variable shown in the help
   std::string help;
   std::string default_text;  ///< empty: none
+  std::string topic;         ///< heading under which all options are listed; empty: the first
+  bool basic = false;        ///< one of the few options that the short help lists
   std::vector<std::string> choices;
   std::vector<std::string> endings;  ///< output: of the names it may have; empty: any
   double low = -std::numeric_limits<double>::infinity();
@@ -42,6 +44,14 @@ struct Declaration {
   std::vector<std::string> paragraphs, citations;
   std::vector<Example> examples;
   std::vector<Argument> positionals, options, common;
+
+  /// Whether the short help lists an option of this tool: one that is basic or required, and any
+  /// if the tool marks none as basic.
+  bool is_brief(const Argument& option) const;
+  /// Topics of the options in the order of their first use.
+  std::vector<std::string> topics() const;
+  /// The options of a topic.
+  std::vector<Argument> of_topic(const std::string& topic) const;
 };
 
 /// The one-line synopsis: "forward REFERENCE.vtkhdf DEFORMED.vtkhdf [options]".
@@ -51,7 +61,9 @@ std::string remarks(const Argument& argument);
 /// "-o, --output FILE".
 std::string usage(const Argument& argument);
 
-std::string help_text(const Declaration& tool);
+/// The help of a terminal: with `all`, everything, the options by topic; otherwise the first
+/// paragraph, the options that most people need, and what `all` has beyond them.
+std::string help_text(const Declaration& tool, bool all);
 std::string help_man(const Declaration& tool);
 std::string help_markdown(const Declaration& tool);
 /// For the completion in a shell: one line "--name<TAB>kind<TAB>choice choice" per long option,

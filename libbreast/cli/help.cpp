@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <sstream>
 
 #include "cli/declaration.hpp"
@@ -43,7 +44,8 @@ std::string with_remarks(const Argument& argument) {
   return extra.empty() ? argument.help : argument.help + " (" + extra + ")";
 }
 
-void list_text(std::ostringstream& out, const char* title, const std::vector<Argument>& list) {
+void list_text(std::ostringstream& out, const std::string& title,
+               const std::vector<Argument>& list) {
   if (list.empty()) return;
   out << "\n" << title << ":\n";
   for (const Argument& argument : list) {
@@ -66,7 +68,8 @@ std::string roff(const std::string& text) {
   return out;
 }
 
-void list_man(std::ostringstream& out, const char* title, const std::vector<Argument>& list) {
+void list_man(std::ostringstream& out, const std::string& title,
+              const std::vector<Argument>& list) {
   if (list.empty()) return;
   out << ".SH " << title << "\n";
   for (const Argument& argument : list) {
@@ -88,7 +91,8 @@ std::string cell(const std::string& text) {
   return out;
 }
 
-void list_markdown(std::ostringstream& out, const char* title, const std::vector<Argument>& list) {
+void list_markdown(std::ostringstream& out, const std::string& title,
+                   const std::vector<Argument>& list) {
   if (list.empty()) return;
   out << "\n## " << title << "\n\n| | |\n|---|---|\n";
   for (const Argument& argument : list) {
@@ -115,7 +119,78 @@ std::string call_prefix() {
                                                                                        : "";
 }
 
+std::string topic_title(const std::string& topic) {
+  return topic.empty() ? "Options" : "Options: " + topic;
+}
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
+  return text;
+}
+
+void examples_text(std::ostringstream& out, const Declaration& tool) {
+  const std::string prefix = call_prefix();
+  if (!tool.examples.empty()) out << "\nExamples:\n";
+  for (const auto& example : tool.examples) {
+    const bool of_this = example.command.rfind(tool.name + " ", 0) == 0;
+    out << "  " << (of_this ? prefix : "") << example.command << "\n      "
+        << wrap(example.explanation, 6) << "\n";
+  }
+}
+
+// What --help-all has beyond --help.
+std::string further(const Declaration& tool) {
+  std::vector<std::string> topics;
+  std::size_t number = 0;
+  for (const Argument& argument : tool.options) {
+    if (tool.is_brief(argument)) continue;
+    ++number;
+    if (!argument.topic.empty() &&
+        std::find(topics.begin(), topics.end(), argument.topic) == topics.end())
+      topics.push_back(argument.topic);
+  }
+  if (number == 0) return "also explains the common options and the exit codes";
+  return "shows " + std::to_string(number) + " further option" + (number > 1 ? "s" : "") +
+         (topics.empty() ? "" : " by topic: " + joined(topics));
+}
+
+void brief_text(std::ostringstream& out, const Declaration& tool) {
+  if (!tool.paragraphs.empty()) out << "\n" << wrap(tool.paragraphs.front(), 0) << "\n";
+  list_text(out, "Arguments", tool.positionals);
+  std::vector<Argument> options;
+  std::copy_if(tool.options.begin(), tool.options.end(), std::back_inserter(options),
+               [&](const Argument& argument) { return tool.is_brief(argument); });
+  list_text(out, "Options", options);
+  std::vector<std::string> common;
+  for (const Argument& argument : tool.common) common.push_back(usage(argument));
+  out << "\n" << wrap("Common options: " + joined(common), 2) << "\n";
+  examples_text(out, tool);
+  out << "\n" << wrap(call_prefix() + tool.name + " --help-all " + further(tool), 2) << "\n";
+}
+
 }  // namespace
+
+bool Declaration::is_brief(const Argument& option) const {
+  const bool any =
+      std::any_of(options.begin(), options.end(), [](const Argument& a) { return a.basic; });
+  return !any || option.basic || option.required;
+}
+
+std::vector<std::string> Declaration::topics() const {
+  std::vector<std::string> names;
+  for (const Argument& argument : options)
+    if (std::find(names.begin(), names.end(), argument.topic) == names.end())
+      names.push_back(argument.topic);
+  return names;
+}
+
+std::vector<Argument> Declaration::of_topic(const std::string& topic) const {
+  std::vector<Argument> list;
+  std::copy_if(options.begin(), options.end(), std::back_inserter(list),
+               [&](const Argument& argument) { return argument.topic == topic; });
+  return list;
+}
 
 std::string synopsis(const Declaration& tool) {
   std::string line = call_prefix() + tool.name;
@@ -160,19 +235,20 @@ std::string remarks(const Argument& argument) {
   return text;
 }
 
-std::string help_text(const Declaration& tool) {
+std::string help_text(const Declaration& tool, bool all) {
   std::ostringstream out;
-  const std::string prefix = call_prefix();
-  out << prefix << tool.name << " - " << tool.summary << "\n\nUsage: " << synopsis(tool) << "\n";
+  out << call_prefix() << tool.name << " - " << tool.summary << "\n\nUsage: " << synopsis(tool)
+      << "\n";
+  if (!all) {
+    brief_text(out, tool);
+    return out.str();
+  }
   for (const std::string& paragraph : tool.paragraphs) out << "\n" << wrap(paragraph, 0) << "\n";
   list_text(out, "Arguments", tool.positionals);
-  list_text(out, "Options", tool.options);
+  for (const std::string& topic : tool.topics())
+    list_text(out, topic_title(topic), tool.of_topic(topic));
   list_text(out, "Common options", tool.common);
-  if (!tool.examples.empty()) out << "\nExamples:\n";
-  for (const auto& example : tool.examples) {
-    out << "  " << (example.command.starts_with(tool.name + " ") ? prefix : "") << example.command
-        << "\n      " << wrap(example.explanation, 6) << "\n";
-  }
+  examples_text(out, tool);
   out << "\nExit codes:\n";
   for (const ExitCode& exit : exit_codes) out << "  " << exit.code << "  " << exit.meaning << "\n";
   if (!tool.citations.empty()) out << "\nCitation:\n";
@@ -190,7 +266,8 @@ std::string help_man(const Declaration& tool) {
     out << (i ? ".PP\n" : "") << roff(tool.paragraphs[i]) << "\n";
   }
   list_man(out, "ARGUMENTS", tool.positionals);
-  list_man(out, "OPTIONS", tool.options);
+  for (const std::string& topic : tool.topics())
+    list_man(out, '"' + upper(topic_title(topic)) + '"', tool.of_topic(topic));
   list_man(out, "\"COMMON OPTIONS\"", tool.common);
   if (!tool.examples.empty()) out << ".SH EXAMPLES\n";
   for (const auto& example : tool.examples) {
@@ -214,7 +291,8 @@ std::string help_markdown(const Declaration& tool) {
       << synopsis(tool) << "\n```\n";
   for (const std::string& paragraph : tool.paragraphs) out << "\n" << cell(paragraph) << "\n";
   list_markdown(out, "Arguments", tool.positionals);
-  list_markdown(out, "Options", tool.options);
+  for (const std::string& topic : tool.topics())
+    list_markdown(out, topic_title(topic), tool.of_topic(topic));
   list_markdown(out, "Common options", tool.common);
   if (!tool.examples.empty()) out << "\n## Examples\n";
   for (const auto& example : tool.examples) {

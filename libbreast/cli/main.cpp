@@ -199,7 +199,10 @@ void Tool::Impl::declare_common() {
   add_common(ArgumentKind::flag, "--quiet", "", "print no progress and no warnings on stderr")
       .store = [this](const std::vector<std::string>&) { quiet = true; };
   const auto nothing = [](const std::vector<std::string>&) {};
-  add_common(ArgumentKind::flag, "--help", "", "print this text").store = nothing;
+  add_common(ArgumentKind::flag, "--help", "", "print a short help").store = nothing;
+  add_common(ArgumentKind::flag, "--help-all", "",
+             "print the whole description and all options by topic")
+      .store = nothing;
   add_common(ArgumentKind::flag, "--version", "", "print the name and version").store = nothing;
 }
 
@@ -210,7 +213,9 @@ bool Tool::Impl::answer_questions(const std::vector<std::string>& arguments) con
   };
   std::string answer;
   if (asked("--help"))
-    answer = help_text(declaration);
+    answer = help_text(declaration, false);
+  else if (asked("--help-all"))
+    answer = help_text(declaration, true);
   else if (asked("--version"))
     answer = declaration.name + " (libbreast) " + declaration.version + "\n";
   else if (asked("--help-man"))

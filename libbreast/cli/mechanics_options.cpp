@@ -101,11 +101,10 @@ void declare_mechanics(Tool& tool, MechanicsChoices& choices, const std::string&
       choices.cut, "--cut", "free|fixed|roller|spring:KC[,KS][,BORDER=K]|tissue:KC[,KS]",
       "boundary condition on the lateral cut, the surface at which the model ends: free, "
       "fixed, roller, or springs of KC kPa/mm, or of K at the medial, superior, lateral or "
-      "inferior BORDER of the breast (spring:0.001,medial=0.1); L and P as at the wall; where the "
-      "cut faces the sternum, an attachment "
-      "of KS kPa/mm pulls tissue back that moves away from it. tissue: the same springs, on which "
-      "the tissue beyond the cut also hangs, with the part of its weight that its springs at the "
-      "wall (KT) do not carry");
+      "inferior BORDER of the breast (spring:0.001,medial=0.1), with L and P as at the wall. "
+      "Where the cut faces the sternum, tissue that moves away from it is pulled back with KS "
+      "kPa/mm. tissue: the same springs, which also hold up the tissue beyond the cut; springs at "
+      "the wall (KT) carry a part of its weight, and the cut carries the rest");
   tool.number(choices.skin_compression, "--skin-compression", "PERCENT",
               "share of the skin's stiffness that remains in compression, where skin wrinkles", 0.1,
               100);
@@ -120,6 +119,10 @@ void declare_mechanics(Tool& tool, MechanicsChoices& choices, const std::string&
   tool.flag(choices.keep_unconverged, "--keep-unconverged",
             "write the last state of a solve that did not converge, marked by its status; the exit "
             "code is still 3");
+  tool.topic("model",
+             {"--materials", "--scale", "--element", "--invariants", "--bulk-ratio", "--wall",
+              "--cut", "--skin-compression", "--skin-smoothing", "--skin-prestretch"});
+  tool.topic("solver", {"--solver", "--keep-unconverged"});
   tool.check([&choices] {
     for (const std::string& scale : choices.scale) check_scale(scale);
   });
@@ -130,6 +133,7 @@ void declare_estimate(Tool& tool, std::string& estimate) {
               "estimate of the discretisation error at the landmarks. step: by two steps with "
               "27-node elements and one matrix; q2: by a complete second solution with 27-node "
               "elements (expensive); none: no estimate");
+  tool.topic("solver", {"--estimate"});
 }
 
 Vec3 GravityChoices::vector() const {

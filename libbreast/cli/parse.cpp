@@ -104,7 +104,7 @@ void assign(Declaration& tool, const Tokens& tokens) {
     }
     const std::string given = tokens.unknown[0].substr(0, tokens.unknown[0].find('='));
     std::string hint = suggestion(given, names);
-    if (hint.empty()) hint = "; see " + tool.name + " --help";
+    if (hint.empty()) hint = "; see " + tool.name + " --help-all";
     throw input_error("unknown option '", given, "'", hint);
   }
   for (const Tokens::Option& option : tokens.options) {

@@ -225,14 +225,24 @@ Tool& Tool::output_folder(std::filesystem::path& value, const std::string& name,
 }
 
 Tool& Tool::required(const std::string& name) {
-  for (Argument& argument : impl_->declaration.options) {
-    if (argument.label() == name) {
-      argument.required = true;
-      return *this;
-    }
+  impl_->declared(name).required = true;
+  return *this;
+}
+
+Tool& Tool::topic(const std::string& name, const std::vector<std::string>& options) {
+  for (const std::string& option : options) {
+    std::string& topic = impl_->declared(option).topic;
+    if (!topic.empty())
+      throw failed_error("tool ", impl_->declaration.name, " lists ", option, " under ", topic,
+                         " and under ", name);
+    topic = name;
   }
-  throw failed_error("tool ", impl_->declaration.name, " requires ", name,
-                     ", which it never declared");
+  return *this;
+}
+
+Tool& Tool::basic(const std::vector<std::string>& options) {
+  for (const std::string& option : options) impl_->declared(option).basic = true;
+  return *this;
 }
 
 Tool& Tool::check(std::function<void()> rule) {

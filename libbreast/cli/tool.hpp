@@ -121,6 +121,11 @@ class Tool {
   Tool& output_folder(std::filesystem::path& value, const std::string& name,
                       const std::string& placeholder, const std::string& help);
   Tool& required(const std::string& name);  ///< makes an option mandatory
+  /// Lists options under a heading of their own; without a topic, an option is under "Options".
+  /// The options must be declared before, and each has at most one topic.
+  Tool& topic(const std::string& name, const std::vector<std::string>& options);
+  /// Marks the options that --help lists, about ten; --help-all lists all of them.
+  Tool& basic(const std::vector<std::string>& options);
   /// Checks across arguments, run after parsing and before any file is opened; throw input_error.
   Tool& check(std::function<void()> rule);
 

@@ -9,6 +9,7 @@
 
 #include "cli/declaration.hpp"
 #include "cli/tool.hpp"
+#include "core/error.hpp"
 
 namespace breast {
 
@@ -27,8 +28,14 @@ struct Tool::Impl {
     declaration.positionals.push_back(std::move(argument));
     return declaration.positionals.back();
   }
+  /// The option of that name; a tool that never declared it is wrong.
+  Argument& declared(const std::string& name) {
+    for (Argument& argument : declaration.options)
+      if (argument.label() == name) return argument;
+    throw failed_error("tool ", declaration.name, " names ", name, ", which it never declared");
+  }
   void declare_common();
-  /// Answers --help, --version and the hidden --help-man, --help-markdown, --help-completion; true
+  /// Answers --help, --help-all, --version and the hidden --help-man, --help-markdown, --help-completion; true
   /// if one of them was given.
   bool answer_questions(const std::vector<std::string>& arguments) const;
 };

@@ -67,7 +67,7 @@ class Programs(unittest.TestCase):
     def test_refusals_are_one_line(self):
         for words, said in [
                 (["in.tsv", "--facto", "3"], "unknown option '--facto'; did you mean '--factor'?"),
-                (["in.tsv", "--xyzzy"], "unknown option '--xyzzy'; see example --help"),
+                (["in.tsv", "--xyzzy"], "unknown option '--xyzzy'; see example --help-all"),
                 (["in.tsv", "--factor", "96"], "--factor 96: must be 1 to 95"),
                 (["in.tsv", "--factor", "nan"], "--factor: 'nan' is not a finite number"),
                 (["in.tsv", "--cores", "1.5"], "--cores: '1.5' is not a whole number"),
@@ -121,6 +121,37 @@ class Programs(unittest.TestCase):
         self.assertIn(".B \\-o, \\-\\-output OUT.tsv\nresult\n", help_man(tool))
         self.assertIn("--element\tvalue\tq1p0 q2p1\n", help_completion(tool))
         self.assertIn("--output\tfile\t\n", help_completion(tool))
+
+    def test_short_help_has_what_most_people_need_and_full_help_everything(self):
+        tool = example()
+        tool.describe("More about nothing.")
+        tool.cite("Nobody 2026")
+        small = help_text(tool.declaration)
+        self.assertIn("\nOptions:\n  -f, --factor X\n", small)
+        self.assertNotIn("More about nothing.", small)
+        self.assertTrue(small.endswith("\n\nexample --help-all also explains the common options and the exit codes\n"), small)
+
+        tool.topic("input", ("--with", "--all"))
+        tool.topic("solver", ("--element", "--gravity"))
+        tool.basic(("--factor", "--element", "--output"))
+        small, whole = help_text(tool.declaration), help_text(tool.declaration, everything=True)
+        self.assertEqual([line for line in small.split("\nCommon options")[0].splitlines() if line.startswith("  -")],
+                         ["  -f, --factor X", "  --element q1p0|q2p1", "  -o, --output OUT.tsv"])
+        self.assertTrue(small.endswith("\n\nexample --help-all shows 4 further options by topic: input, solver\n"), small)
+        man, markdown = help_man(tool.declaration).replace("\\-", "-"), help_markdown(tool.declaration).replace("\\|", "|")
+        for option in tool.declaration.options + tool.declaration.common:
+            usage = option.usage()
+            for page, line in ((whole, f"\n  {usage}\n"), (man, f"\n.B {usage}\n"), (markdown, f"| `{usage}` |")):
+                self.assertEqual(page.count(line), 1, line)
+        for page in (whole, man, markdown):
+            for part in ("More about nothing.", "Nobody 2026"):
+                self.assertIn(part, page)
+        titles = [line for line in whole.splitlines() if line.startswith("Options")]
+        self.assertEqual(titles, ["Options:", "Options: solver:", "Options: input:"])
+        self.assertIn('\n.SH "OPTIONS: SOLVER"\n', help_man(tool.declaration))
+        self.assertRaises(Failed, tool.topic, "solver", ("--with",))  # it has another topic
+        self.assertRaises(Failed, tool.topic, "solver", ("--none",))
+        self.assertRaises(Failed, tool.basic, ("--none",))
 
 
 class Names(unittest.TestCase):

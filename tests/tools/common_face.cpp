@@ -2,6 +2,7 @@
 // Every tool: help, version, man page, usage errors, reports.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "core/atomic_file.hpp"
@@ -37,14 +38,43 @@ TEST_P(CommonFace, Help) {
   const ToolResult result = run({"--help"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err, "");
-  for (const char* part :
-       {"Usage: ", "Examples:", "Exit codes:", "--report FILE.json", "--threads N"}) {
+  for (const std::string& part :
+       {std::string("Usage: "), std::string("Examples:"), std::string("--report FILE.json"),
+        std::string("--threads N"), "\n" + GetParam() + " --help-all "}) {
     EXPECT_NE(result.out.find(part), std::string::npos) << part;
   }
   const std::string examples =
       result.out.substr(std::min(result.out.size(), result.out.find("Examples:")));
   EXPECT_NE(examples.find(" " + GetParam() + " "), std::string::npos)
       << "the examples call another name";
+}
+
+// Lines "  --name ..." or "  -n, --name ..." before the common options.
+int options_in(const std::string& help) {
+  std::istringstream lines(help.substr(0, help.find("\nCommon options:")));
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) number += line.rfind("  -", 0) == 0;
+  return number;
+}
+
+TEST_P(CommonFace, HelpIsShortAndFullHelpHasEveryOption) {
+  const std::string brief = run({"--help"}).out, full = run({"--help-all"}).out;
+  EXPECT_LE(options_in(brief), 13);
+  EXPECT_LE(std::count(brief.begin(), brief.end(), '\n'), 90);
+  const int further = options_in(full) - options_in(brief);
+  EXPECT_EQ(brief.find("shows " + std::to_string(further) + " further option") != std::string::npos,
+            further > 0)
+      << further;
+  EXPECT_NE(full.find("Exit codes:"), std::string::npos);
+  std::istringstream lines(run({"--help-completion"}).out);
+  for (std::string line; std::getline(lines, line);) {
+    const std::string name = line.substr(0, line.find('\t'));
+    int listed = 0;
+    std::istringstream of_full(full);
+    for (std::string entry; std::getline(of_full, entry);)
+      listed += entry.rfind("  -", 0) == 0 && (entry + " ").find(name + " ") != std::string::npos;
+    EXPECT_EQ(listed, 1) << name;
+  }
 }
 
 TEST_P(CommonFace, VersionAndPages) {

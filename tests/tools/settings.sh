@@ -66,7 +66,7 @@ pass "defaults follow from the case"
 # What a setting accepts is what the program accepts to which it is given.
 while read -r setting tool option; do
   range=$(awk -F '\t' -v setting="$setting" '$1 == setting { split($4, word, " "); print word[2], "to", word[3] }' pipelines/settings.tsv)
-  "$bin/$tool" --help | tr -s ' \n' ' ' | grep -q -- "$option [A-Z]* [^-]*($range[;)]" || fail "$setting: $range is the range of $tool $option"
+  "$bin/$tool" --help-markdown | grep -q -- "^| .$option [A-Z]*. | .*($range[;)]" || fail "$setting: $range is the range of $tool $option"
 done <<'ranges'
 FORCE compress --force
 THICKNESS compress --thickness
@@ -79,7 +79,7 @@ SERIES segment --series
 ranges
 # The phantom says which of its bodies slide, and make plans for them.
 sliding=$(sed -n 's/^body_slides := $(filter \(.*\),.*/\1/p' pipelines/settings.mk | sed 's/ /, /g; s/, \([a-z]*\)$/ and \1/')
-"$bin/phantom" --help | tr -s ' \n' ' ' | grep -q "Breasts of the presets $sliding are" || fail "the presets $sliding slide"
+"$bin/phantom" --help-all | tr -s ' \n' ' ' | grep -q "Breasts of the presets $sliding are" || fail "the presets $sliding slide"
 pass "the bounds of settings are those of the programs"
 
 mkdir -p "$work/runs/paper"

@@ -23,6 +23,7 @@ struct Trial {
   std::optional<double> force;
   MechanicsChoices choices;
   std::function<void(Run&)> body = [](Run&) {};
+  std::function<void(Tool&)> more = [](Tool&) {};  // declarations
   std::string err, stdout_text;
   bool ran = false;
 
@@ -37,6 +38,7 @@ struct Trial {
     tool.number(force, "--force", "N", "force", 0, 500);
     tool.output_file(table, "--table", "FILE.tsv", "table");
     declare_mechanics(tool, choices, "MESH");
+    more(tool);
     tool.check([this] {
       if (skin == 13) throw input_error("--skin 13: unlucky");
     });
@@ -105,6 +107,46 @@ TEST(Cli, UsageErrorsAreOneLineAndNothingRuns) {
     EXPECT_FALSE(trial.ran) << part;
     EXPECT_EQ(std::count(trial.err.begin(), trial.err.end(), '\n'), 1) << trial.err;
     EXPECT_NE(trial.err.find(part), std::string::npos) << trial.err << " lacks " << part;
+  }
+}
+
+TEST(Cli, HelpIsShortAndFullHelpIsByTopic) {
+  Trial t;
+  t.more = [](Tool& tool) {
+    tool.describe("How it works.");
+    tool.required("--skin");
+    tool.topic("loads", {"--gravity", "--force"});
+    tool.basic({"--force", "--materials"});
+  };
+  ASSERT_EQ(t.run({"--help"}), 0);
+  const std::string brief = t.stdout_text;
+  ASSERT_EQ(t.run({"--help-all"}), 0);
+  const std::string full = t.stdout_text;
+  const auto has = [](const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  };
+  for (const char* option :
+       {"\n  -t, --skin MM\n", "\n  --force N\n", "\n  --materials NAME|FILE\n"})
+    EXPECT_TRUE(has(brief, option)) << option << brief;
+  for (const char* part : {"How it works.", "--gravity", "--solver", "Exit codes:"})
+    EXPECT_TRUE(!has(brief, part) && has(full, part)) << part;
+  EXPECT_TRUE(
+      has(brief, "\ntrial --help-all shows 14 further options by topic: loads, model, solver\n"))
+      << brief;
+  std::size_t at = 0;
+  for (const char* title : {"\nOptions: loads:\n  --gravity gx,gy,gz\n", "\nOptions:\n",
+                            "\nOptions: model:\n", "\nOptions: solver:\n", "\nCommon options:\n"}) {
+    at = full.find(title, at);
+    EXPECT_NE(at, std::string::npos) << title << full;
+  }
+}
+
+TEST(Cli, AnOptionHasOneTopic) {
+  for (const std::vector<std::string>& wrong :
+       {std::vector<std::string>{"--solver"}, {"--no-such"}}) {
+    Trial t;
+    t.more = [&wrong](Tool& tool) { tool.topic("loads", wrong); };
+    EXPECT_THROW(t.run({"--help"}), Error) << wrong.front();
   }
 }
 

@@ -204,7 +204,7 @@ def _declared() -> Tool:
                   "by the makefile and is not meant to be called by hand.")
     for name, kind in KINDS.items():
         tool.describe(f"{name} {kind.arguments}: {kind.help}.")
-    tool.word("KIND", "action, from the list above")
+    tool.word("KIND", "action: " + ", ".join(KINDS))
     tool.words("ARGUMENT", "arguments of the action: files, folders and names")
     tool.text("--prints", "FILE", "of `stage`: the file that gets what the program prints; its messages alone are then in the log")
     tool.text("--keep", "FILE", "of `stage`: the shape of compress, which is kept even if the plates do not grip the breast")
@@ -221,6 +221,10 @@ def _declared() -> Tool:
     tool.text("--element", "NAME", "element (ELEMENT) of every case, q1p0 or q2p1")
     tool.text("--cost", "FILE.tsv", "table of the cost of a case, used until cases of this cohort have been measured",
               "pipelines/cohort-cost.tsv")
+    tool.topic("stage", ("--prints", "--keep", "--spared", "--of"))
+    tool.topic("Slurm", ("--partition", "--account", "--time", "--memory", "--cores", "--options", "--resume", "--elements", "--element",
+                         "--cost"))
+    tool.basic(("--partition", "--account", "--time", "--memory", "--cores", "--options", "--resume"))
     tool.check(lambda: _check(tool))
     tool.example("cases list patients pipelines", "list the cases of a cohort")
     tool.example("cases record runs/scan-left left scan.nrrd", "record that this folder was made from this scan")

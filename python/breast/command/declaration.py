@@ -23,6 +23,7 @@ class Argument:
 
     kind: text, number, integer, numbers, choice, flag, input, output or folder.
     low, high: the bounds of a number; count: how many numbers; endings: of the name of an output.
+    topic: heading under which all options are listed, empty for the first; basic: whether the short help lists it.
     store: called with the list of checked values; with an empty list for a flag.
     """
 
@@ -38,6 +39,8 @@ class Argument:
     count: int = 1
     repeatable: bool = False
     required: bool = False
+    topic: str = ""
+    basic: bool = False
     store: Callable[[list[str]], None] = lambda values: None
 
     @property
@@ -92,6 +95,15 @@ class Declaration:
     def option(self, name: str) -> Argument | None:
         return next((a for a in self.options + self.common if name in a.names), None)
 
+    def is_brief(self, option: Argument) -> bool:
+        """Whether the short help lists it: one that is basic or required, and any if the program marks none as basic."""
+        return option.basic or option.required or not any(a.basic for a in self.options)
+
+    def by_topic(self) -> list[tuple[str, list[Argument]]]:
+        """The headings of the options in the order of their first use, each with its options."""
+        topics = dict.fromkeys(a.topic for a in self.options)
+        return [("Options: " + topic if topic else "Options", [a for a in self.options if a.topic == topic]) for topic in topics]
+
 
 def number_text(value: float) -> str:
     """The shortest text that reads back as the same number, as 5 and 0.1."""
@@ -121,19 +133,41 @@ def _wrap(text: str, indent: int, width: int = 88) -> str:
     return ("\n" + " " * indent).join([*lines, line])
 
 
-def help_text(tool: Declaration) -> str:
-    prefix = _call_prefix()
-    out = [f"{prefix}{tool.name} - {tool.summary}\n\nUsage: {synopsis(tool)}\n"]
-    out += [f"\n{_wrap(paragraph, 0)}\n" for paragraph in tool.paragraphs]
-    for title, arguments in (("Arguments", tool.positionals), ("Options", tool.options), ("Common options", tool.common)):
-        if arguments:
-            out.append(f"\n{title}:\n")
-        out += [f"  {a.usage()}\n      {_wrap(a.explained(), 6)}\n" for a in arguments]
-    if tool.examples:
-        out.append("\nExamples:\n")
+def _listed(title: str, arguments: Sequence[Argument]) -> str:
+    return f"\n{title}:\n" * bool(arguments) + "".join(f"  {a.usage()}\n      {_wrap(a.explained(), 6)}\n" for a in arguments)
+
+
+def _examples(tool: Declaration) -> str:
+    prefix, out = _call_prefix(), "\nExamples:\n" * bool(tool.examples)
     for command, explanation in tool.examples:
         own = prefix if command.startswith(tool.name + " ") else ""
-        out.append(f"  {own}{command}\n      {_wrap(explanation, 6)}\n")
+        out += f"  {own}{command}\n      {_wrap(explanation, 6)}\n"
+    return out
+
+
+def _further(tool: Declaration) -> str:
+    """What the full help has beyond the short one."""
+    more = [a for a in tool.options if not tool.is_brief(a)]
+    if not more:
+        return "also explains the common options and the exit codes" if tool.common else "has the whole description and the exit codes"
+    topics = ", ".join(dict.fromkeys(a.topic for a in more if a.topic))
+    return f"shows {len(more)} further option{'s' * (len(more) > 1)}" + (f" by topic: {topics}" if topics else "")
+
+
+def help_text(tool: Declaration, everything: bool = False) -> str:
+    """The help of a terminal: the first paragraph and the options that most people need; or everything, the options by topic."""
+    name = _call_prefix() + tool.name
+    out = [f"{name} - {tool.summary}\n\nUsage: {synopsis(tool)}\n"]
+    out += [f"\n{_wrap(paragraph, 0)}\n" for paragraph in tool.paragraphs[:None if everything else 1]]
+    out.append(_listed("Arguments", tool.positionals))
+    if not everything:
+        out.append(_listed("Options", [a for a in tool.options if tool.is_brief(a)]))
+        if tool.common:
+            out.append("\n" + _wrap("Common options: " + ", ".join(a.usage() for a in tool.common), 2) + "\n")
+        out += [_examples(tool), "\n" + _wrap(f"{name} --help-all {_further(tool)}", 2) + "\n"]
+        return "".join(out)
+    out += [_listed(title, arguments) for title, arguments in [*tool.by_topic(), ("Common options", tool.common)]]
+    out.append(_examples(tool))
     out.append("\nExit codes:\n" + "".join(f"  {code}  {meaning}\n" for code, meaning in _EXIT_CODES))
     if tool.citations:
         out.append("\nCitation:\n" + "".join(f"  {_wrap(citation, 2)}\n" for citation in tool.citations))
@@ -151,9 +185,10 @@ def help_man(tool: Declaration) -> str:
            f".SH NAME\n{_roff(tool.name)} \\- {_roff(tool.summary)}\n.SH SYNOPSIS\n.B {_roff(synopsis(tool))}\n"]
     if tool.paragraphs:
         out.append(".SH DESCRIPTION\n" + ".PP\n".join(_roff(p) + "\n" for p in tool.paragraphs))
-    for title, arguments in (("ARGUMENTS", tool.positionals), ("OPTIONS", tool.options), ('"COMMON OPTIONS"', tool.common)):
+    for title, arguments in [("Arguments", tool.positionals), *tool.by_topic(), ("Common options", tool.common)]:
         if arguments:
-            out.append(f".SH {title}\n")
+            heading = title.upper()
+            out.append(f'.SH "{heading}"\n' if " " in heading else f".SH {heading}\n")
         out += [f".TP\n.B {_roff(a.usage())}\n{_roff(a.explained())}\n" for a in arguments]
     if tool.examples:
         out.append(".SH EXAMPLES\n")
@@ -169,7 +204,7 @@ def help_markdown(tool: Declaration) -> str:
         return text.replace("|", "\\|").replace("<", "&lt;")
     out = [f"# {tool.name}\n\n{cell(tool.summary)}\n\n```\n{synopsis(tool)}\n```\n"]
     out += [f"\n{cell(paragraph)}\n" for paragraph in tool.paragraphs]
-    for title, arguments in (("Arguments", tool.positionals), ("Options", tool.options), ("Common options", tool.common)):
+    for title, arguments in [("Arguments", tool.positionals), *tool.by_topic(), ("Common options", tool.common)]:
         if arguments:
             out.append(f"\n## {title}\n\n| | |\n|---|---|\n")
         for a in arguments:

@@ -33,13 +33,13 @@ def _become(program: str, words: Sequence[str]) -> int:
         raise Failed(f"{program} could not be started: {error.strerror}") from None
 
 
-def _help(installation: Installation, words: Sequence[str]) -> int:
+def _help(installation: Installation, words: Sequence[str], everything: bool = False) -> int:
     from .declaration import help_text
     from .pipeline import pipeline_settings, setting_help, settings_help
     from .request import pipeline_command
     what = words[0] if words else "help"
     if what in PIPELINE_COMMANDS:
-        return _print(help_text(pipeline_command(what)))
+        return _print(help_text(pipeline_command(what), everything))
     if what == "settings":
         return _print(settings_help(installation))
     if what in installation.tools:
@@ -61,8 +61,11 @@ def _page(page: str) -> int:
 def _run(installation: Installation, command: str, words: Sequence[str]) -> int:
     if command in installation.tools:
         return _become(installation.tool(command), words)
-    if command in ("--help", "-h", "help") or (command in PIPELINE_COMMANDS and "--help" in words):
-        return _help(installation, [command] if command in PIPELINE_COMMANDS else words)
+    if command in ("--help", "--help-all", "-h", "help"):
+        return _help(installation, words)
+    asked = {"--help", "--help-all"} & set(words) if command in PIPELINE_COMMANDS else set()
+    if asked:
+        return _help(installation, [command], everything="--help" not in asked)
     if command == "--version":
         return _print(f"breast (libbreast) {__version__}\n")
     if command == "list":

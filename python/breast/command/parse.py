@@ -81,7 +81,7 @@ def _store(argument: Argument, values: list[str]) -> None:
 def _refuse_unknown(tool: Declaration, word: str) -> None:
     given = word.partition("=")[0]
     near = nearest(given, [name for a in tool.options + tool.common for name in a.names])
-    raise BreastError(f"unknown option '{given}'; " + (f"did you mean '{near}'?" if near else f"see {tool.name} --help"))
+    raise BreastError(f"unknown option '{given}'; " + (f"did you mean '{near}'?" if near else f"see {tool.name} --help-all"))
 
 
 def _assign_positionals(tool: Declaration, values: list[str]) -> None:

@@ -7,8 +7,8 @@
     tool.example("cases list patients", "list the cases of a cohort")
     sys.exit(tool.main(lambda run: run.print(run.args.kind)))
 
-All programs have --report, --threads, --quiet, --help and --version, and the exit codes 0 done, 1 failed, 2 bad usage or input,
-3 not converged. A failure is one line on stderr.
+All programs have --report, --threads, --quiet, --help, --help-all and --version, and the exit codes 0 done, 1 failed, 2 bad usage or
+input, 3 not converged. A failure is one line on stderr.
 """
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ import time
 from collections.abc import Callable, Sequence
 from types import SimpleNamespace
 
-from ..errors import BreastError
+from ..errors import BreastError, Failed
 from ..output import is_stream, write_text, written_by_us
 from ..text_table import parse_number
 from .declaration import Argument, Declaration, help_completion, help_man, help_markdown, help_text, number_text
@@ -62,7 +62,8 @@ class Tool:
         common.append(Argument("integer", ("--threads",), "N", "number of threads", "all cores", low=1, high=1024,
                                store=self._into("threads", int)))
         common.append(Argument("flag", ("--quiet",), "", "print no progress and no warnings on stderr", store=self._set("quiet")))
-        common.append(Argument("flag", ("--help",), "", "print this text"))
+        common.append(Argument("flag", ("--help",), "", "print a short help"))
+        common.append(Argument("flag", ("--help-all",), "", "print the whole description and all options by topic"))
         common.append(Argument("flag", ("--version",), "", "print the name and version"))
 
     # ---- what the program is ----
@@ -75,6 +76,19 @@ class Tool:
 
     def example(self, command: str, explanation: str) -> None:
         self.declaration.examples.append((command, explanation))
+
+    def topic(self, name: str, options: Sequence[str]) -> None:
+        """Lists options, which are declared before, under a heading of their own; each has at most one."""
+        for option in options:
+            argument = self._declared(option)
+            if argument.topic:
+                raise Failed(f"{self.declaration.name} lists {option} under {argument.topic} and under {name}")
+            argument.topic = name
+
+    def basic(self, options: Sequence[str]) -> None:
+        """Marks the options that --help lists, about ten; --help-all lists all of them."""
+        for option in options:
+            self._declared(option).basic = True
 
     def check(self, rule: Callable[[], None]) -> None:
         """A rule about several arguments, which raises BreastError."""
@@ -179,7 +193,8 @@ class Tool:
 
     def _answer(self, words: list[str]) -> str | None:
         asked = words[:words.index("--")] if "--" in words else words
-        pages = {"--help": help_text, "--version": lambda d: f"{d.name} (libbreast) {d.version}\n", "--help-man": help_man,
+        pages = {"--help": help_text, "--help-all": lambda d: help_text(d, everything=True),
+                 "--version": lambda d: f"{d.name} (libbreast) {d.version}\n", "--help-man": help_man,
                  "--help-markdown": help_markdown, "--help-completion": help_completion}
         return next((page(self.declaration) for name, page in pages.items() if name in asked), None)
 
@@ -208,6 +223,12 @@ class Tool:
 
     def _set(self, name: str) -> Callable[[list[str]], None]:
         return lambda values: setattr(self.args, name, True)
+
+    def _declared(self, name: str) -> Argument:
+        found = next((a for a in self.declaration.options if a.label == name), None)
+        if found is None:
+            raise Failed(f"{self.declaration.name} names {name}, which it never declared")
+        return found
 
     def _positional(self, kind: str, placeholder: str, help: str, store: Callable[[list[str]], None]) -> Argument:
         argument = Argument(kind, (), placeholder, help, required=True, store=store)

@@ -25,7 +25,8 @@ def main() -> int:
     tool = Tool("render", "pictures of shapes, plates, mammograms and tables")
     tool.describe("Draws figures without a screen: for surfaces the tool starts and stops an X server of its own (Xvfb), whatever "
                   "DISPLAY says. All views are parallel projections with a scale bar in mm; L, A and S mark the patient's left, "
-                  "anterior and superior directions. The figures, and the files that each needs, are:")
+                  "anterior and superior directions.")
+    tool.describe("The figures, and the files that each needs, are:")
     for name, figure in FIGURES.items():
         tool.describe(f"{name}: {figure.summary}.")
     tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), Figs 4 to 7")

@@ -82,5 +82,5 @@ def kind_called(name: str) -> Kind:
     if name in KINDS:
         return KINDS[name]
     near = nearest(name, KINDS)
-    hint = f"did you mean '{near}'?" if near else "tabulate --help lists all kinds"
+    hint = f"did you mean '{near}'?" if near else "tabulate --help-all explains all kinds"
     raise BreastError(f"'{name}' is not a kind of table or page; {hint}")

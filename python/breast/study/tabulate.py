@@ -30,13 +30,14 @@ def declaration() -> Tool:
     tool.describe(
         "Reads the JSON reports, TSV tables and shapes of finished runs and prints one table or page to stdout, either as "
         "tab-separated text with a header line or as HTML. It runs no simulation. The pipeline makes all its tables and pages with "
-        "this tool, and each kind can also be made by hand. The kinds are:")
+        "this tool, and each kind can also be made by hand.")
+    tool.describe("The kinds are:")
     for known in KINDS.values():
         tool.describe(f"{known.name} {known.arguments}: {known.help}.")
     tool.describe(
         "If a phantom's preset was fitted to results of the chain, the environment variable CALIBRATED=\"REPORT.json SIDE\" names the "
         "phantom's report and side, and the rows to which it was fitted are marked.")
-    tool.word("KIND", "kind of table or page, from the list above")
+    tool.word("KIND", "kind of table or page: " + ", ".join(KINDS))
     tool.words("ARGUMENT", "arguments of that kind: files, folders and names")
     tool.text("--pipelines", "FOLDER", "folder with the pipeline's own tables: advice.tsv, limits.txt, paper/, invivo/", "pipelines")
     tool.check(lambda: kind_called(tool.args.kind).check_count(len(tool.args.argument)))
