@@ -8,6 +8,7 @@ from breast.errors import BreastError
 from breast.study.advice import Advice, Warned, gather, read_advice
 from breast.study.cohort import cohort_cost, cohort_table, read_cases
 from breast.study.documents import markdown_table, run_line, with_run, with_tables, wrong_numbers
+from breast.study.same_scan import flag_correlations, flag_table, same_scan_table, spearman
 from breast.study.sides import side_table
 from breast.study.stage_report import StageReport, failure_of, posture_failure_of
 from breast.study.summary import _curve_text, aligned, folded
@@ -217,3 +218,40 @@ class Cohort(InFolder):
                          "left done mesh 0.992 0.950 0.4 2.3 5.0 - 1.5 0.10 0.51 0.43 512 500 2.3e-10 11 305 the rim was moved; layers "
                          "supine, wall_p95_mm, fit_p95_mm -")
         self.assertEqual((right["reached"], right["missed"], right["reason"]), ("-", "supine", "no chest wall"))
+
+    def test_changed_scans_are_compared_with_the_unchanged_one_or_its_mirror_image(self):
+        def case(name, side, nipple, volume, moved, wall, dice):
+            for stage in ("labels", "geometry", "mesh", "reference", "supine"):
+                self.write(f"{name}/{stage}.vtkhdf")
+            self.write(f"{name}.status", "done\t\n")
+            self.write(f"{name}/labels.json", json.dumps(
+                {"side": side, "cut_by_view_cm2": 0, "landmarks": {"nipple": {"imaged": nipple}},
+                 "quality": {"wall": dice, "tissue": 1, "extent": dice}}))
+            self.write(f"{name}/geometry.json", json.dumps({"volumes_ml": {"labels": volume}}))
+            self.write(f"{name}/mesh.json", json.dumps({"volume_ml": volume}))
+            self.write(f"{name}/supine.json", json.dumps({"landmarks": {"nipple": {"displacement_from_scan_mm": moved}}}))
+            self.write(f"{name}/labels-same.tsv", f"quantity\tvalue\nwall_mean_mm\t{wall}\nbreast_dice\t{dice}\n")
+            self.write(f"{name}/labels-truth.tsv", f"quantity\tvalue\nwall_on_breast_mean_mm\t{wall}\n"
+                       f"fibroglandular_in_breast_dice\t{dice}\n")
+
+        names = ("a--unchanged", "a--mirrored", "a--30-mm-less-above", "a--voxels-x2")
+        self.write(".cases", "".join(f"{name}\tx\tscan\n" for name in names))
+        case(names[0], "left", [80, -40, 0], 500, [30, 40, 0], 0, 1)
+        case(names[1], "right", [-80, -40, 1], 505, [-30, 40, 0], 0.25, 0.98)
+        case(names[2], "left", [80, -44, 0], 480, [30, 45, 0], 1.6, 0.9)
+        self.write(f"{names[3]}.status", "failed\tno chest wall\n")
+        cases = read_cases(self.folder)
+        rows = [" ".join(row.values()) for row in same_scan_table(self.folder, cases)]
+        self.assertEqual(rows, [
+            "a unchanged supine 0.0 500 0.0 0.0 0.00 50.0 0.0 0.0 0 none -",
+            "a mirrored supine 1.0 505 1.0 1.0 0.25 50.0 0.0 0.0 0 none -",
+            "a 30 mm less above supine 4.0 480 -4.0 -4.0 1.60 54.1 8.2 5.0 0 nipple_mm, volume_percent, wall_mm, supine_percent -",
+            "a voxels x2 - - - - - - - - - - nipple_mm, volume_percent, wall_mm, supine_percent no chest wall"])
+        flags = flag_table(self.folder, cases)
+        self.assertEqual([" ".join(row) for row in flag_correlations(flags).rows], ["wall 3 1.00", "gland 3 -", "extent 3 1.00"])
+
+    def test_ranks_that_are_tied_share_their_mean(self):
+        self.assertAlmostEqual(spearman([0, 0, 1, 2], [1, 2, 3, 4]), 0.9486833)
+        self.assertAlmostEqual(spearman([1, 2, 3], [9, 4, 1]), -1)
+        self.assertIsNone(spearman([1, 1], [1, 2]))
+        self.assertIsNone(spearman([], []))

@@ -35,7 +35,7 @@ def side_table(runs: Path, cases: list[Case]) -> Table:
                    _SHAPE.name, "volume_ml", "labels_ml", "closure_mm", "cpu_s", "peak_mb", "mended", "missed", "reason"])
     cost = cohort_cost(runs, cases)
     for case in cases:
-        run, reached = runs / case.name, _reached(runs / case.name)
+        run, reached = runs / case.name, last_stage(runs / case.name)
         labels, geometry, mesh, reference = (StageReport.read(run / f"{stage}.json") for stage in _STAGES[:4])
         truth = table_if_any(run / "labels-truth.tsv")
         true = [(bound, truth.number_at(bound.key, "value") if truth else None) for bound in _TRUE]
@@ -53,7 +53,7 @@ def side_table(runs: Path, cases: list[Case]) -> Table:
     return table
 
 
-def _reached(run: Path) -> str:
+def last_stage(run: Path) -> str:
     """The last stage whose file is there, with those before it."""
     last = NO_VALUE
     for stage in _STAGES:
