@@ -51,15 +51,16 @@ def flag_table(runs: Path, cases: list[Case]) -> Table:
     """One row a case with true labels (labels-truth.tsv): the score of segment for wall, gland and extent, and what each judges.
 
     wall: mean distance of the chest wall on the labelled breast from the truth; gland: what its Dice coefficient within the labelled
-    breast lacks of one; extent: what the Dice coefficient of the breast lacks of one, with the breast of the unchanged scan
-    (labels-same.tsv) where the case is a changed one, otherwise with the true breast.
+    breast lacks of one; extent: what the Dice coefficient of the breast with that of the unchanged scan lacks of one (labels-same.tsv),
+    for changed scans only, because true labels seldom have a border of the breast.
     """
     table = Table(["case", "wall_score", "wall_mm", "gland_score", "gland_lacks", "extent_score", "extent_lacks"])
     for case in cases:
         labels, truth = StageReport.read(runs / case.name / "labels.json"), table_if_any(runs / case.name / "labels-truth.tsv")
         if truth is None:
             continue
-        same = table_if_any(runs / case.name / "labels-same.tsv") if _BETWEEN in case.name else truth
+        changed = _BETWEEN in case.name and not case.name.endswith(_BETWEEN + UNCHANGED)
+        same = table_if_any(runs / case.name / "labels-same.tsv") if changed else None
         gland = truth.number_at("fibroglandular_in_breast_dice", "value")
         extent = same.number_at("breast_dice", "value") if same else None
         table.rows.append([
