@@ -13,8 +13,8 @@ namespace breast {
 
 /// `id` is stable: "folds_at_plate_edge", "folds_on_chest_wall", "folds_between_edge_and_wall",
 /// "folds_behind_plates", "folds_between_plates" (where the worst element of the refused step
-/// lies); "shrinks_..." with the same endings (no element folds, but one shrinks too much in one
-/// step or its law overflows); "iteration_limit", "indefinite_tangent", "no_admissible_step";
+/// lies); the same five with "shrinks_" for "folds_" (no element folds, but one shrinks too much in
+/// one step, or its law overflows); "iteration_limit", "indefinite_tangent", "no_admissible_step";
 /// "solve_limit" and "out_of_reach" (a target force or pressure not reached by almost closed
 /// plates).
 struct StopReason {

@@ -110,8 +110,8 @@ def _query(line: Line) -> int:
 
 def _place_words(curves: dict[str, list[Line]]) -> str:
     """What the ring in the second view is: the truth, a mark of the user, or where the model itself has the landmark."""
-    for start, words in (("model's artificial", "the artificial tumour at the model's own position"),
-                         ("model's", "the model's own position of the tumour"), ("truth", "its true position"),
+    for start, words in (("model's artificial", "where the model puts the artificial tumour"),
+                         ("model's", "where the model puts the tumour"), ("truth", "its true position"),
                          ("mark", "its marked position")):
         if any(name.startswith(start) and name.endswith(" in MLO") for name in curves):
             return words

@@ -38,8 +38,8 @@ def verify(expected: Table, run: Path) -> Table:
 
 
 def expected_anew(text: str, run: Path) -> str:
-    """A table of expected values with those of the run in rows that differ. Rows that agree keep their value, so that a bound
-    remains a bound, and comments are kept."""
+    """The table of expected values, brought up to date: where the run differs, its own value replaces the expected one. Rows that
+    agree and comments stay as they are, so that a bound remains a bound."""
     verified = iter(verify(parse_table(text, "expected values"), run))
     lines = []
     for line in lines_of(text):
