@@ -94,9 +94,9 @@ int main(int argc, char** argv) {
           "except air, where both volumes have voxels). It also contains the distance between the "
           "chest walls along y, where the true breast has muscle behind it, and the distances "
           "between the breasts' surfaces (accurate to half a voxel) and between the nipples. "
-          "fibroglandular_in_breast and wall_on_breast are counted only within the breast of GIVEN, "
-          "for truth in which the breast has no border. "
-          "Otherwise, the table contains the distances between the surfaces.")
+          "fibroglandular_in_breast and wall_on_breast count only what lies within the breast of "
+          "GIVEN, since some true labels do not say where the breast ends. "
+          "Of other inputs, the table contains the distances between the surfaces.")
       .cite("Dice 1945, Ecology 26(3):297-302");
   tool.input(given_file, "GIVEN",
              "label volume (.vtkhdf, .seg.nrrd, .nrrd, .nii, .mha) or surface (.vtp)");

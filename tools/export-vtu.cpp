@@ -18,8 +18,8 @@ void declare(Tool& tool, Choices& c) {
       "Writes a mesh in any shape (mesh, reference, supine, cc, mlo) as a VTK XML file, for programs that "
       "do not read VTKHDF, such as meshio, 3D Slicer and ParaView before 5.10. The file has the "
       "hexahedra with their tissue, determinant and pressure, and the nodes with their displacements from the "
-      "scan and from the stress-free shape and with the pressure of contact, as far as the mesh has them. "
-      "Coordinates are LPS in mm. It cannot be read back: landmarks, parts and the model stay in the mesh.");
+      "scan and from the stress-free shape and the contact pressure; what the mesh lacks is left out. "
+      "Coordinates are LPS in mm. No tool reads this file back, since it has no landmarks, parts or model.");
   tool.input(c.mesh, "MESH.vtkhdf", "hexahedral mesh in any shape");
   tool.output(c.out, "OUT.vtu", "hexahedra with 8 or 27 nodes");
   tool.check([&c] {

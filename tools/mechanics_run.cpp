@@ -36,10 +36,9 @@ void declare_states(Tool& tool, StatesChoice& choice, const std::string& what) {
   tool.integer(
       choice.number, "--states", "N",
       "also write N equilibria " + what +
-          ", the last of which is the result, each as a mesh in a folder beside the output, "
-          "with a table of status, residual, iterations and places of the landmarks "
-          "(states.tsv) and a series that ParaView opens as an animation "
-          "(states.vtkhdf.series)",
+          "; the last is the result. A folder beside the output gets one mesh for each, a table of "
+          "status, residual, iterations and places of the landmarks (states.tsv), and a series that "
+          "ParaView opens as an animation (states.vtkhdf.series)",
       2, 200);
   tool.basic({"--states"});
 }

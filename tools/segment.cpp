@@ -41,9 +41,9 @@ void declare(Tool& tool, Choices& c) {
   tool.describe(
       "A supine scan (--posture supine) is the second posture for identify, which needs its skin "
       "and chest wall. --points then contains the skin of the whole side with normals, and the "
-      "chest wall wherever it was found. The breast, spread over the side of the chest, is "
-      "labelled as far as the chest wall was sought; beyond the side of the rib cage its end is "
-      "arbitrary.");
+      "chest wall wherever it was found. A supine breast spreads over the side of the chest. It is "
+      "labelled only where the chest wall was searched for, so that its border on the side of the "
+      "rib cage is arbitrary.");
   tool.cite("Pathmanathan et al. 2008, section II-A; Li et al., IEEE TPAMI 28:119 (2006)");
   tool.input(c.scan, "MR", "scan: .nrrd, .nii, .nii.gz, .mha, or a DICOM folder");
   tool.output(
