@@ -77,6 +77,13 @@ class OnReports(unittest.TestCase):
         with self.assertRaisesRegex(BreastError, "nothing can be compared"):
             Pair(some, self.run_of("c", cc={"force_N": 80})).rows
 
+    def test_a_view_without_grip_is_said_before_its_numbers(self):
+        def view(status):
+            return {"view": "CC", "status": status, "accepted": status == "converged", "reason": "slips", "force_N": 20}
+        page = compare_page(Pair(self.run_of("a", cc=view("converged")), self.run_of("b", cc=view("not_gripped"))))
+        self.assertEqual(page.count("CC: the simulated plates do not hold the breast."), 1)
+        self.assertLess(page.index("do not hold the breast"), page.index("force of the paddle"))
+
     def test_text_of_a_report_is_no_markup(self):
         hostile = {"command": "segment <script>alert(1)</script> l.vtkhdf", "breast_ml": 500, "warnings": ["<script>"]}
         page = compare_page(Pair(self.run_of("<b>", labels=hostile), self.run_of("b", labels={**hostile, "command": "segment"})))
@@ -132,6 +139,9 @@ class OnRuns(unittest.TestCase):
         alts = [re.search('alt="([^"]+)"', image)[1] for image in images]
         self.assertEqual(len(set(alts)), 4)
         self.assertTrue(all('src="data:image/png;base64,' in image for image in images))
+        levels = [int(level) for level in re.findall(r"<h([1-6])", page)]
+        self.assertTrue(levels[0] == 1 and levels.count(1) == 1 and all(b - a <= 1 for a, b in zip(levels, levels[1:])), levels)
+        self.assertEqual(page.count("<th"), page.count("<th scope=col>"))
         self.assertNotIn(str(self.first.parent), page)
         self.assertEqual(compared(self.first, self.second, "--out", out)[0], 0)  # its own files are replaced
         (out / "compare.tsv").write_text("somebody's\tnotes\n")

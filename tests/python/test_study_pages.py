@@ -140,7 +140,7 @@ class Pages(InFolder):
         made = report_page(run, self.folder, [Warned("cc", "<script>", "'&\"")], ["A limit."], "", "Made today.")
         for text in ("labels: segment scan.nrrd --side left\n", "case a&lt;b&gt;", "<td class=n>41.27</td>", "<li>A limit.",
                      "<td>nipple moved</td><td class=n>97.3</td><td class=n>101</td>", "&#39;&amp;&#34;", "<td>&lt;i&gt;</td>",
-                     "<th>a b</th>", "<td class=n>1.5</td><td class=bad>fails</td>"):
+                     "<th scope=col>a b</th>", "<td class=n>1.5</td><td class=bad>fails</td>"):
             self.assertIn(text, made)
         for text in ("secret", "<script>", str(self.folder)):
             self.assertNotIn(text, made)
