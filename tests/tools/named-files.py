@@ -61,7 +61,7 @@ def folders_named() -> list[tuple[str, str]]:
 
 def main(programs: str) -> int:
     with tempfile.TemporaryDirectory() as work:
-        rules = "".join(texts(["pipelines/*.mk", "pipelines/*.tsv", "Makefile.pipeline", "tests/*.mk", "tests/bench/*.mk"]).values())
+        rules = "".join(texts(["pipelines/*.mk", "pipelines/*.tsv", "Makefile.pipeline", "tests/*.mk", "tests/bench/*.mk", "tests/bench/*.sh"]).values())
         plans = "".join(plan(programs, f"{work}/runs", preset, goals) for preset, goals in PLANS)
         made = names_in(rules) | names_in(plans)
         below = set(re.findall(r"\$\(RUN\)/([\w./-]+)", rules)) | set(re.findall(rf"{work}/runs/\w+/([\w./-]+)", plans))
