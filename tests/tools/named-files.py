@@ -17,6 +17,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 ENDINGS = "json|tsv|png|vtkhdf|vtp|vti|h5|html|mk|txt"
 PLANS = [("PRESET=average", "demo truth page slicer report"), ("PRESET=paper", "all leaveout cost wall-sensitivity band")]
+RULES = ["pipelines/*.mk", "pipelines/*.tsv", "Makefile.pipeline", "tests/*.mk", "tests/bench/*.mk", "tests/bench/*.sh"]
 READERS = ["python/breast/study/**/*.py", "python/breast/cases/*.py"]
 EXAMPLES = ["tools/*.cpp", "python/breast/command/*.py", "docs/**/*.md", "README.md"]
 
@@ -61,7 +62,7 @@ def folders_named() -> list[tuple[str, str]]:
 
 def main(programs: str) -> int:
     with tempfile.TemporaryDirectory() as work:
-        rules = "".join(texts(["pipelines/*.mk", "pipelines/*.tsv", "Makefile.pipeline", "tests/*.mk", "tests/bench/*.mk", "tests/bench/*.sh"]).values())
+        rules = "".join(texts(RULES).values())
         plans = "".join(plan(programs, f"{work}/runs", preset, goals) for preset, goals in PLANS)
         made = names_in(rules) | names_in(plans)
         below = set(re.findall(r"\$\(RUN\)/([\w./-]+)", rules)) | set(re.findall(rf"{work}/runs/\w+/([\w./-]+)", plans))
