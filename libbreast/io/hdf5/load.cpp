@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// HDF5 bytes -> Document; with check/chunk_check.cpp, all that speaks HDF5 for reading.
+// Reads a Document from the bytes of an HDF5 file, top down: load_document, parse, Loader. Before HDF5 may
+// read a list of attributes or the chunks of a dataset, check/ looks at their bytes, on which HDF5 crashes
+// when they are damaged.
 #include <hdf5.h>
 
 #include <algorithm>
@@ -13,7 +15,7 @@
 #include "core/guarded_child.hpp"
 #include "io/hdf5/check/attribute_check.hpp"
 #include "io/hdf5/check/chunk_check.hpp"
-#include "io/hdf5/document.hpp"
+#include "io/hdf5/fields.hpp"
 #include "io/hdf5/handle.hpp"
 #include "io/hdf5/packed.hpp"
 #include "io/hdf5/seal.hpp"
@@ -24,33 +26,24 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Source {
-  std::string name;    ///< file, as messages call it
-  std::string advice;  ///< "; make it again with hexmesh"
-
-  template <class... Parts>
-  Error refuse(const Parts&... parts) const {
-    return input_error(name, ": ", parts..., advice);
-  }
-};
-
 template <class T>
-void check_finite(const Source& source, const std::string& path, const Array& array,
+void check_finite(const Complaint& complain, const std::string& path, const Array& array,
                   const std::vector<T>& values) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!std::isfinite(values[i])) {
-      throw source.refuse("dataset ", path, index_text(i, array.shape), " is ", values[i],
-                          ", must be finite");
+      throw complain("dataset ", path, index_text(i, array.shape), " is ", values[i],
+                     ", must be finite");
     }
   }
 }
 
-void check_all_finite(const Source& source, const Document& document) {
+void check_all_finite(const Complaint& complain, const Document& document) {
   for (const auto* list : {&document.datasets, &document.attributes}) {
     for (const auto& [path, array] : *list) {
       if (const auto* d = std::get_if<Doubles>(&array.values))
-        check_finite(source, path, array, *d);
-      if (const auto* f = std::get_if<Floats>(&array.values)) check_finite(source, path, array, *f);
+        check_finite(complain, path, array, *d);
+      if (const auto* f = std::get_if<Floats>(&array.values))
+        check_finite(complain, path, array, *f);
     }
   }
 }
@@ -91,18 +84,18 @@ struct Stated {
 
 class Loader {
  public:
-  Loader(const Source& source, std::string_view file) : source_(source), file_(file) {}
+  Loader(const Complaint& complain, std::string_view file) : complain_(complain), file_(file) {}
 
-  void load_group(const Handle& parent, const std::string& path, int depth) {
-    if (depth > 8) throw source_.refuse("group ", path, " is nested too deeply");
-    Handle group(H5Gopen2(parent, path.c_str(), H5P_DEFAULT), H5Gclose);
-    if (!group) throw source_.refuse("group ", path, " cannot be opened");
+  /// All below the group at a path from the root of `file`, which is `depth` groups deep.
+  void load_group(const Handle& file, const std::string& path, int depth) {
+    if (depth > 8) throw complain_("group ", path, " is nested too deeply");
+    Handle group(H5Gopen2(file, path.c_str(), H5P_DEFAULT), H5Gclose);
+    if (!group) throw complain_("group ", path, " cannot be opened");
     load_attributes(group, path);
     H5G_info_t info{};
-    if (H5Gget_info(group, &info) < 0) throw source_.refuse("group ", path, " cannot be listed");
-    if (info.nlinks > 1000)
-      throw source_.refuse("group ", path, " holds ", info.nlinks, " members");
-    for (hsize_t i = 0; i < info.nlinks; ++i) load_member(parent, group, path, i, depth);
+    if (H5Gget_info(group, &info) < 0) throw complain_("group ", path, " cannot be listed");
+    if (info.nlinks > 1000) throw complain_("group ", path, " holds ", info.nlinks, " members");
+    for (hsize_t i = 0; i < info.nlinks; ++i) load_member(file, group, path, i, depth);
   }
 
   Document document;
@@ -115,22 +108,22 @@ class Loader {
     if (H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i, name, sizeof name,
                            H5P_DEFAULT) < 0 ||
         H5Lget_info(group, name, &link, H5P_DEFAULT) < 0) {
-      throw source_.refuse("member ", i, " of group ", path, " cannot be read");
+      throw complain_("member ", i, " of group ", path, " cannot be read");
     }
     const std::string child = path + "/" + name;
-    if (link.type != H5L_TYPE_HARD) throw source_.refuse(child, " is a link, must be a dataset");
+    if (link.type != H5L_TYPE_HARD) throw complain_(child, " is a link, must be a dataset");
     H5O_info_t object{};
     if (H5Oget_info_by_name(group, name, &object, H5P_DEFAULT) < 0)
-      throw source_.refuse(child, " cannot be read");
+      throw complain_(child, " cannot be read");
     if (!visited_.insert(object.addr).second) {
-      throw source_.refuse(child, " is a second link to an object that has another name already");
+      throw complain_(child, " is a second link to an object that has another name already");
     }
     if (object.type == H5O_TYPE_GROUP) {
       load_group(file, child, depth + 1);
     } else if (object.type == H5O_TYPE_DATASET) {
       load_dataset(group, name, child);
     } else {
-      throw source_.refuse(child, " is neither a group nor a dataset");
+      throw complain_(child, " is neither a group nor a dataset");
     }
   }
 
@@ -138,30 +131,30 @@ class Loader {
   Stated stated(const std::string& path, const Handle& space, const Handle& type) {
     // HDF5 reads a null dataspace as no value at all, which would leave the zero that was there.
     if (space && H5Sget_simple_extent_type(space) == H5S_NULL)
-      throw source_.refuse(path, " is there without a value");
+      throw complain_(path, " is there without a value");
     const int rank = space ? H5Sget_simple_extent_ndims(space) : -1;
-    if (rank < 0 || rank > 4) throw source_.refuse(path, " has ", rank, " dimensions");
+    if (rank < 0 || rank > 4) throw complain_(path, " has ", rank, " dimensions");
     std::vector<hsize_t> extent(std::size_t(rank) + 1);
     H5Sget_simple_extent_dims(space, extent.data(), nullptr);
     Stated of{path, {extent.begin(), extent.begin() + rank}};
     const std::size_t limit = most_inflation * file_.size();
     for (const std::size_t n : of.shape) {
       if (n != 0 && of.count > limit / n) {
-        throw source_.refuse(path, " states more values than a file of ", file_.size(),
-                             " bytes can hold");
+        throw complain_(path, " states more values than a file of ", file_.size(),
+                        " bytes can hold");
       }
       of.count *= n;
     }
     of.kind = type ? H5Tget_class(type) : H5T_NO_CLASS;
     of.width = type ? H5Tget_size(type) : 0;
     if (of.kind != H5T_INTEGER && of.kind != H5T_FLOAT && of.kind != H5T_STRING)
-      throw source_.refuse("dataset ", path, " has a type that is neither number nor text");
+      throw complain_("dataset ", path, " has a type that is neither number nor text");
     return of;
   }
 
   void load_dataset(const Handle& group, const char* name, const std::string& path) {
     const Handle dataset(H5Dopen2(group, name, H5P_DEFAULT), H5Dclose);
-    if (!dataset) throw source_.refuse("dataset ", path, " cannot be opened");
+    if (!dataset) throw complain_("dataset ", path, " cannot be opened");
     const Handle space(H5Dget_space(dataset), H5Sclose), type(H5Dget_type(dataset), H5Tclose);
     const Stated of = stated(path, space, type);
     expect_stored(dataset, of);
@@ -173,7 +166,7 @@ class Loader {
   // All that must be so before HDF5 may read the values of a dataset.
   void expect_stored(const Handle& dataset, const Stated& of) {
     const auto refuse = [&](const auto&... words) {
-      return source_.refuse("dataset ", of.path, " ", words...);
+      return complain_("dataset ", of.path, " ", words...);
     };
     const Handle layout(H5Dget_create_plist(dataset), H5Pclose);
     const H5D_layout_t kind = layout ? H5Pget_layout(layout) : H5D_LAYOUT_ERROR;
@@ -204,8 +197,8 @@ class Loader {
     const std::size_t width =
         of.kind == H5T_INTEGER && of.width > 1 ? sizeof(std::int64_t) : of.width;
     if (width > 0 && of.count > (most_bytes - spent_) / width) {
-      throw source_.refuse(of.path, " and the objects before it need more than ", most_bytes,
-                           " bytes of memory");
+      throw complain_(of.path, " and the objects before it need more than ", most_bytes,
+                      " bytes of memory");
     }
     spent_ += of.count * width;
   }
@@ -213,16 +206,16 @@ class Loader {
   void load_attributes(const Handle& group, const std::string& path) {
     H5O_info_t info{};
     if (H5Oget_info(group, &info) < 0 || info.num_attrs > 1000)
-      throw source_.refuse("attributes of group ", path, " cannot be read");
+      throw complain_("attributes of group ", path, " cannot be read");
     const std::string wrong = wrong_attributes(file_, info.addr);
-    if (!wrong.empty()) throw source_.refuse("group ", path, " is damaged: ", wrong);
+    if (!wrong.empty()) throw complain_("group ", path, " is damaged: ", wrong);
     for (hsize_t i = 0; i < info.num_attrs; ++i) {
       const Handle attribute(
           H5Aopen_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i, H5P_DEFAULT, H5P_DEFAULT),
           H5Aclose);
       char name[256] = "";
       if (!attribute || H5Aget_name(attribute, sizeof name, name) < 0) {
-        throw source_.refuse("attribute ", i, " of group ", path, " cannot be read");
+        throw complain_("attribute ", i, " of group ", path, " cannot be read");
       }
       const std::string whole = path + "@" + name;
       const Handle space(H5Aget_space(attribute), H5Sclose);
@@ -261,13 +254,13 @@ class Loader {
   template <class Read>
   void fill(const Stated& of, void* data, hid_t memory, const Read& read) {
     if (of.count > 0 && read(memory, data) < 0)
-      throw source_.refuse("dataset ", of.path, " cannot be read (truncated or damaged)");
+      throw complain_("dataset ", of.path, " cannot be read (truncated or damaged)");
   }
 
   template <class Read>
   Texts fixed_texts(const Stated& of, const Handle& type, const Read& read) {
     if (of.width == 0 || of.width > most_inflation * file_.size() / (of.count + 1))
-      throw source_.refuse("dataset ", of.path, " states texts longer than the file");
+      throw complain_("dataset ", of.path, " states texts longer than the file");
     std::vector<char> buffer(of.count * of.width);
     fill(of, buffer.data(), type, read);
     Texts texts;
@@ -289,24 +282,24 @@ class Loader {
     return texts;
   }
 
-  const Source& source_;
+  const Complaint& complain_;
   std::string_view file_;
   std::size_t spent_ = 0;
   std::set<haddr_t> visited_;
 };
 
-void check_schema(const Source& source, const Document& document, const std::string& schema) {
+void check_schema(const Complaint& complain, const Document& document, const std::string& schema) {
   const auto found = document.attributes.find("/breast@schema");
   const Texts* texts =
       found == document.attributes.end() ? nullptr : std::get_if<Texts>(&found->second.values);
   if (!texts || texts->size() != 1)
-    throw source.refuse("attribute schema of group /breast is missing, must be '", schema, "'");
+    throw complain("attribute schema of group /breast is missing, must be '", schema, "'");
   if (texts->front() != schema)
-    throw source.refuse("has schema '", texts->front(), "', must be '", schema, "'");
+    throw complain("has schema '", texts->front(), "', must be '", schema, "'");
 }
 
 // The part HDF5 does, whose 1.10 parser can crash on damage: in a child process.
-Document parse(const Source& source, std::string& content,
+Document parse(const Complaint& complain, std::string& content,
                const std::set<std::string>& groups = {"/VTKHDF", "/breast"}) {
   silence_hdf5();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -314,14 +307,14 @@ Document parse(const Source& source, std::string& content,
   H5Pset_fapl_core(access, growth, false);
   H5Pset_file_image(access, content.data(), content.size());
   const Handle h5(H5Fopen("in memory", H5F_ACC_RDONLY, access), H5Fclose);
-  if (!h5) throw source.refuse("HDF5 cannot open it (truncated or damaged)");
-  Loader loader(source, content);
+  if (!h5) throw complain("HDF5 cannot open it (truncated or damaged)");
+  Loader loader(complain, content);
   for (const std::string& group : groups) {
     if (H5Lexists(h5, group.c_str(), H5P_DEFAULT) <= 0)
-      throw source.refuse("group ", group, " is missing: this is not a file of libbreast");
+      throw complain("group ", group, " is missing: this is not a file of libbreast");
     H5L_info_t link{};
     if (H5Lget_info(h5, group.c_str(), &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD) {
-      throw source.refuse(group, " is a link, must be a group");
+      throw complain(group, " is a link, must be a group");
     }
     loader.load_group(h5, group, 0);
   }
@@ -331,24 +324,24 @@ Document parse(const Source& source, std::string& content,
 }  // namespace
 
 Document load_document(const fs::path& file, const std::string& schema, const std::string& maker) {
-  const Source source{file.string(), "; make it with " + maker};
+  const Complaint complain{ErrorKind::input, file.string(), "; make it with " + maker};
   try {
     std::string content = read_text(file);
-    check_seal(content, source.name, source.advice);
+    check_seal(content, complain.file, complain.advice);
     const std::lock_guard lock(hdf5_mutex());
     constexpr double longest_s = 300;
     const auto work = [&] {
-      const Document parsed = parse(source, content);
-      check_schema(source, parsed, schema);
+      const Document parsed = parse(complain, content);
+      check_schema(complain, parsed, schema);
       return packed(parsed);
     };
     const Budget budget = budget_of(content.size());
     Document document = unpacked(
-        in_guarded_child(source.name, work, longest_s, budget.memory_mb, budget.cpu_seconds));
-    check_all_finite(source, document);
+        in_guarded_child(complain.file, work, longest_s, budget.memory_mb, budget.cpu_seconds));
+    check_all_finite(complain, document);
     return document;
   } catch (const std::bad_alloc&) {
-    throw source.refuse("declares more data than fit in memory");
+    throw complain("declares more data than fit in memory");
   }
 }
 
@@ -358,7 +351,7 @@ bool reads_back(const std::string& name, std::string& image, const Document& doc
     groups.insert(path.substr(0, path.find_first_of("/@", 1)));
   for (const auto& [path, array] : document.attributes)
     groups.insert(path.substr(0, path.find_first_of("/@", 1)));
-  const Document found = parse({name, ""}, image, groups);
+  const Document found = parse({ErrorKind::input, name, ""}, image, groups);
   const auto equal = [](const auto& a, const auto& b) {
     return a.first == b.first && a.second.shape == b.second.shape &&
            a.second.values == b.second.values;
@@ -370,11 +363,7 @@ bool reads_back(const std::string& name, std::string& image, const Document& doc
 }
 
 void check_writable(const fs::path& file, const Document& document) {
-  try {
-    check_all_finite({file.string(), ""}, document);
-  } catch (const Error& error) {
-    throw failed_error("cannot write ", error.what());
-  }
+  check_all_finite({ErrorKind::failed, "cannot write " + file.string(), ""}, document);
 }
 
 }  // namespace breast

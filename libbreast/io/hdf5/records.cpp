@@ -61,6 +61,19 @@ constexpr ContactNumber contact_numbers[] = {
     {"lean_deg", &ContactRecord::lean_deg},
     {"surface_stiffness", &ContactRecord::surface_stiffness}};
 
+std::vector<FrictionRecord> get_friction(Fields& fields) {
+  const auto nodes = fields.indices(friction_group + "/node", {Fields::any}, 0, int_limit);
+  const auto plates = fields.indices(friction_group + "/plate", {nodes.size()}, 0, 2);
+  const auto anchors = fields.places(friction_group + "/anchor", nodes.size());
+  const Doubles bounds = fields.doubles(friction_group + "/bound", {nodes.size()});
+  const Doubles sticks = fields.doubles(friction_group + "/stick", {nodes.size()});
+  std::vector<FrictionRecord> list;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    list.push_back({int(nodes[i]), int(plates[i]), anchors[i], bounds[i], sticks[i]});
+  }
+  return list;
+}
+
 }  // namespace
 
 void put_model(Document& document, const ModelText& model) {
@@ -145,21 +158,6 @@ void put_contact(Document& document, const ContactRecord& contact) {
   sets[contact_group + "/path_force_N"] = array_of(Doubles(contact.path_force_N));
   sets[contact_group + "/path_detector_N"] = array_of(Doubles(contact.path_detector_N));
 }
-
-namespace {
-std::vector<FrictionRecord> get_friction(Fields& fields) {
-  const auto nodes = fields.indices(friction_group + "/node", {Fields::any}, 0, int_limit);
-  const auto plates = fields.indices(friction_group + "/plate", {nodes.size()}, 0, 2);
-  const auto anchors = fields.places(friction_group + "/anchor", nodes.size());
-  const Doubles bounds = fields.doubles(friction_group + "/bound", {nodes.size()});
-  const Doubles sticks = fields.doubles(friction_group + "/stick", {nodes.size()});
-  std::vector<FrictionRecord> list;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    list.push_back({int(nodes[i]), int(plates[i]), anchors[i], bounds[i], sticks[i]});
-  }
-  return list;
-}
-}  // namespace
 
 ContactRecord get_contact(Fields& fields) {
   ContactRecord contact;
