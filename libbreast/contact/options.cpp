@@ -71,6 +71,7 @@ double parse_detector(const std::string& text) {
 
 double parse_image_edge(const std::string& text, View view, double muscle_mm) {
   constexpr double least = -50, most = 500;
+  // Without muscle 0, not −0, which a report would show.
   if (text == "auto") return view == View::cc ? edge_cc : 0 - edge_in_muscle * muscle_mm;
   const std::optional<double> edge = number_in(text);
   if (edge && *edge >= least && *edge <= most) return *edge;

@@ -32,6 +32,7 @@ struct CompressionChoices {
   /// reached ends the compression.
   std::vector<CompressionStop> stops() const;
 };
+
 /// How plates stand and hold a breast, unless options say otherwise.
 struct Placement {
   double edge_radius = PlateOptions().edge_radius;   ///< mm
@@ -41,7 +42,7 @@ struct Placement {
   Positioning positioning = Positioning::hanging;
   double pull_N = 0;  ///< of a lifted breast that friction holds
   /// As in the clinic, with the edge of the plates at the edge of the image: parallel to the chest
-  /// wall, with a sharper edge, and a breast that is lifted, pulled forwards and held by friction.
+  /// wall, in CC with a sharper edge, and a breast that is lifted, pulled forwards and held by friction.
   static Placement clinical(View view);
 };
 

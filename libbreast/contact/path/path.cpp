@@ -30,7 +30,6 @@ constexpr double sought_tolerance = 1e-6;
 /// Plate positions closer than this count as equal, mm.
 constexpr double narrowest_bracket = 1e-4;
 constexpr int most_in_bracket = 40;  ///< positions at which one end is sought
-constexpr double rounding = 1e-9;    ///< of a part of the way that follows from a thickness
 
 /// Two states with a target between them. The thickness at which it is met is sought by the secant
 /// through both, where the weight of an end that stays is halved (Illinois method).
@@ -134,7 +133,7 @@ class Path {
   double longest_step() const;
   double sought() const { return std::min(tolerance_, sought_tolerance); }
   double expected_way(double thickness) const;
-  bool may_end(const Waypoint& at) const { return at.way >= options_.may_end_from - rounding; }
+  bool may_end(const Waypoint& at) const { return at.way >= options_.may_end_from - same_part; }
   bool out_of_reach(double thickness) const {
     return !stops_.end && !(thickness > options_.least_thickness);
   }
@@ -180,7 +179,8 @@ void Path::add_corners() {
   }
 }
 
-/// The state from which the plates start: without contact, or the end of an earlier path.
+/// The state from which the plates start: without contact, or the end of an earlier path. The trail
+/// begins at `state` itself, where the path ends if there is no equilibrium at its first position.
 bool Path::solve_start(const State& state) {
   trail_.begin({state, solver_.memory(), plates_.thickness(), {}, 0, state});
   std::optional<Waypoint> start =
@@ -214,7 +214,8 @@ PathEnd Path::close_plates() {
       continue;
     }
     step.adapt(int(result_.final_step.iterations.size()) - result_.final_step.corrections);
-    // The end is sought between two states of the same load.
+    // The end is sought between two states of the same load: a step that passes a target while the load
+    // still changes is made shorter, or, if it is the shortest, ends with the load of the end.
     if (passed(reached->point) != nullptr && !(may_end(here) && may_end(*reached))) {
       drop_points_beyond_here();
       if (step.halve(std::abs(thickness - here.thickness))) continue;
@@ -479,7 +480,7 @@ double Path::longest_step() const {
   if (options_.longest_step > 0) return options_.longest_step;
   const double way = trail_.here().way;
   const bool slipping =
-      way >= options_.slipping_from - rounding && way < options_.slipping_to - rounding;
+      way >= options_.slipping_from - same_part && way < options_.slipping_to - same_part;
   const double part =
       slipping ? std::min(options_.slipping_part, options_.longest_part) : options_.longest_part;
   return part * plates_.initial_thickness;

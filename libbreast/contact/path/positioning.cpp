@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "contact/compressed_shape.hpp"
+#include "contact/path/target.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "mesh/nodal.hpp"
@@ -16,16 +17,13 @@ namespace {
 
 /// Depth from the edge over which the traction of the hand rises, mm.
 constexpr double pull_ramp_mm = 20;
-/// Difference of parts of the way that counts as none.
-constexpr double rounding = 1e-9;
 /// Tissue closer to the edge than this counts as at the edge, mm.
 constexpr double at_edge_mm = 10;
 
 }  // namespace
 
 double Release::at(double way) const {
-  // A path that stops at `ends` has its way from a thickness, with rounding.
-  if (way >= ends - rounding) return 1;
+  if (way >= ends - same_part) return 1;
   return std::max(0.0, (way - begins) / (ends - begins));
 }
 
@@ -50,13 +48,13 @@ Eigen::VectorXd pull_forwards(const HexMesh& mesh, const std::vector<Vec3>& x, c
 }
 
 PositioningStage positioning_stage(std::string name, const HexMesh& mesh,
-                                   const Eigen::VectorXd& upright, const Eigen::VectorXd& x,
+                                   const Eigen::VectorXd& start, const Eigen::VectorXd& x,
                                    const Plate& plate) {
   PositioningStage stage{std::move(name), coverage(mesh, x, plate).volume, 0};
   double moved = 0;
   int at_edge = 0;
   for (int node = 0; node < mesh.nodes(); ++node) {
-    const Vec3 before = upright.segment<3>(3L * node), now = x.segment<3>(3L * node);
+    const Vec3 before = start.segment<3>(3L * node), now = x.segment<3>(3L * node);
     if (std::abs(before.dot(plate.anterior) - plate.edge_start) > at_edge_mm) continue;
     moved += (now - before).dot(plate.anterior);
     ++at_edge;

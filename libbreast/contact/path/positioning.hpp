@@ -42,15 +42,16 @@ Eigen::VectorXd pull_forwards(const HexMesh& mesh, const std::vector<Vec3>& x, c
 
 /// A stage of positioning and its effect on the tissue at the edge of the plates.
 struct PositioningStage {
-  std::string name;  ///< upright, lifted, pulled, compressed
+  std::string name;  ///< hanging, lifted, pulled, compressed
   double volume_in_front_percent = 0;
-  /// Mean displacement away from the chest wall, relative to the upright hanging breast, of the
-  /// tissue that lay within 10 mm of the edge there, mm.
+  /// Mean displacement away from the chest wall, relative to the shape about which the plates were
+  /// placed, of the tissue that lay within 10 mm of the edge there, mm.
   double past_edge_mm = 0;
 };
-/// `upright` and `x`: positions (3 per node, mm) of the breast hanging upright and at this stage.
+/// `start` and `x`: positions (3 per node, mm) of the shape about which the plates were placed, and at
+/// this stage.
 PositioningStage positioning_stage(std::string name, const HexMesh& mesh,
-                                   const Eigen::VectorXd& upright, const Eigen::VectorXd& x,
+                                   const Eigen::VectorXd& start, const Eigen::VectorXd& x,
                                    const Plate& plate);
 
 }  // namespace breast

@@ -13,14 +13,15 @@ namespace breast {
 struct PathStops {
   std::optional<double> end;                ///< the path ends there at the latest
   std::vector<CompressionTarget> controls;  ///< targets that are not a thickness
-  /// Thicknesses and further values of the controls at which the load has a corner (PathOptions::corners).
+  /// Where the load has a corner (PathOptions::corners): thicknesses, and values of the controls.
   std::vector<double> corners;
   std::vector<CompressionTarget> corner_controls = {};
 };
 
-/// Thickness (mm) a step of about `step` mm from the point `here`: closer to a control or a corner's,
-/// which should not be overshot by much; at a corner or at the end instead of just before or beyond it. `before`
-/// is the point before `here`; null at the start of the path.
+/// Thickness (mm) at which the plates stop next, about `step` mm from the point `here`. The step is
+/// shorter where it would pass a control, or the value of one at a corner, by much; it ends at a
+/// corner's thickness or at the end if it would end just before or beyond it. `before` is the point
+/// before `here`; null at the start of the path.
 double next_thickness(double step, const PathPoint& here, const PathPoint* before,
                       const PathStops& stops);
 

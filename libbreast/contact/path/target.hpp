@@ -46,8 +46,10 @@ CompressionTarget target_of(const CompressionStop& stop, double initial);
 std::optional<double> thickness_in(const CompressionTarget& target);
 /// Those of a target and its alternatives that are none of thickness.
 std::vector<CompressionTarget> others_than_thickness(const CompressionTarget& target);
-/// Fraction of the way to the nearest of the target and its alternatives, for plates that began
-/// `initial` mm apart.
+/// Parts of the way closer than this are the same: they follow from a thickness, with rounding.
+inline constexpr double same_part = 1e-9;
+/// Part of the way (0 to 1) to the nearest of the target and its alternatives at a point `end`, for
+/// plates that began `initial` mm apart.
 double part_of_way(const PathPoint& end, const CompressionTarget& target, double initial);
 /// The same of a point at a thickness (mm) that is not known yet: forces, pressures and areas continue
 /// as from `before` to `here`, or stay as they are if `before` is null.
