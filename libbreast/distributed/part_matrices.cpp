@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solve/multigrid/settings.hpp"
+
 namespace breast {
 
 namespace {
 
-// Row or column of B at a node, in the node's axes and without constrained components.
+// A block of the stiffness at a node, its rows or its columns in the axes of the node and zero along
+// constrained components.
 void constrain(const NodeConstraint* held, Mat3& block, bool rows, bool columns) {
   if (held == nullptr) return;
   if (rows) block = (held->axes.transpose() * block).eval();
@@ -136,15 +139,7 @@ void PartMatrices::fill_rigid_motions(const Eigen::VectorXd& positions,
   }
   for (int i = 0; i < owned; ++i) {
     const Vec3 arm = (positions.segment<3>(3L * i) - middle) / size;
-    Eigen::Matrix<double, 3, 6> motion;
-    motion.leftCols<3>().setIdentity();
-    motion.rightCols<3>() << 0, arm.z(), -arm.y(), -arm.z(), 0, arm.x(), arm.y(), -arm.x(), 0;
-    if (const NodeConstraint* held = constraints.at(i)) {
-      motion = (held->axes.transpose() * motion).eval();
-      for (int k = 0; k < 3; ++k) {
-        if (held->held[k]) motion.row(k).setZero();
-      }
-    }
+    const Eigen::Matrix<double, 3, 6> motion = rigid_motion(arm, constraints.at(i));
     for (int m = 0; m < 6; ++m) {
       for (int k = 0; k < 3; ++k) values[m][3 * i + k] = motion(k, m);
     }

@@ -4,15 +4,9 @@
 
 #include "solve/krylov/lanczos.hpp"
 #include "solve/multigrid/impl.hpp"
+#include "solve/multigrid/settings.hpp"
 
 namespace breast {
-
-namespace {
-
-constexpr int degree = 3, lanczos_steps = 12;
-constexpr double lowest_part = 1.0 / 12;  // of the spectrum's upper end: what the smoother leaves
-
-}  // namespace
 
 template <int B>
 bool MultigridLevel<B>::prepare() {
@@ -28,13 +22,13 @@ bool MultigridLevel<B>::prepare() {
     a.multiply(root.cwiseProduct(x), ax);
     return root.cwiseProduct(ax);
   };
-  largest = largest_eigenvalue(scaled, start, lanczos_steps);
+  largest = largest_eigenvalue(scaled, start, spectrum_steps);
   return std::isfinite(largest);
 }
 
 template <int B>
 void MultigridLevel<B>::smooth(const Eigen::VectorXd& right, Eigen::VectorXd& x) const {
-  const double upper = largest, lower = lowest_part * largest;
+  const double upper = largest, lower = smoothed_from * largest;
   const double centre = 0.5 * (upper + lower), half = 0.5 * (upper - lower);
   const double sigma = centre / half;
   double rho = 1 / sigma;
@@ -48,7 +42,7 @@ void MultigridLevel<B>::smooth(const Eigen::VectorXd& right, Eigen::VectorXd& x)
   }
   step = inverse_diagonal.cwiseProduct(residual) / centre;
   x += step;
-  for (int i = 1; i < degree; ++i) {
+  for (int i = 1; i < smoother_degree; ++i) {
     a.multiply(x, residual);
     residual = right - residual;
     const double next = 1 / (2 * sigma - rho);

@@ -5,13 +5,13 @@
 #include <memory>
 
 #include "solve/multigrid/impl.hpp"
+#include "solve/multigrid/settings.hpp"
 
 namespace breast {
 
 namespace {
 
 constexpr int coarsest_nodes = 150, most_levels = 12;
-constexpr double strong = 0.02;
 
 // Translations and rotations about the middle of the body, of the size of a millimetre each.
 Motions<3> rigid_motions(const Constraints& constraints, const Eigen::VectorXd& positions) {
@@ -25,21 +25,24 @@ Motions<3> rigid_motions(const Constraints& constraints, const Eigen::VectorXd& 
   Motions<3> motions;
   for (long i = 0; i < nodes; ++i) {
     const Vec3 arm = (positions.segment<3>(3 * i) - middle) / size;
-    Eigen::Matrix<double, 3, 6> motion;
-    motion.leftCols<3>().setIdentity();
-    motion.rightCols<3>() << 0, arm.z(), -arm.y(), -arm.z(), 0, arm.x(), arm.y(), -arm.x(), 0;
-    if (const NodeConstraint* held = constraints.at(int(i))) {
-      motion = held->axes.transpose() * motion;
-      for (int k = 0; k < 3; ++k) {
-        if (held->held[k]) motion.row(k).setZero();
-      }
-    }
-    motions.push_back(motion);
+    motions.push_back(rigid_motion(arm, constraints.at(int(i))));
   }
   return motions;
 }
 
 }  // namespace
+
+Eigen::Matrix<double, 3, 6> rigid_motion(const Vec3& arm, const NodeConstraint* held) {
+  Eigen::Matrix<double, 3, 6> motion;
+  motion.leftCols<3>().setIdentity();
+  motion.rightCols<3>() << 0, arm.z(), -arm.y(), -arm.z(), 0, arm.x(), arm.y(), -arm.x(), 0;
+  if (held == nullptr) return motion;
+  motion = (held->axes.transpose() * motion).eval();
+  for (int k = 0; k < 3; ++k) {
+    if (held->held[k]) motion.row(k).setZero();
+  }
+  return motion;
+}
 
 struct Multigrid::Impl {
   MultigridLevel<3> finest;
@@ -88,14 +91,14 @@ bool Multigrid::build(const NodeMatrix& matrix, const Constraints& constraints,
   Impl& m = *impl_;
   m.finest.a = full_matrix(matrix);
   if (!m.finest.prepare()) return false;
-  Motions<6> motions = m.finest.coarsen(rigid_motions(constraints, positions), strong);
+  Motions<6> motions = m.finest.coarsen(rigid_motions(constraints, positions), strong_coupling);
   BlockMatrix<6, 6> a = m.finest.galerkin();
-  double threshold = strong;
+  double threshold = strong_coupling;
   while (a.rows > coarsest_nodes && m.coarser.size() < most_levels) {
     auto level = std::make_unique<MultigridLevel<6>>();
     level->a = std::move(a);
     if (!level->prepare()) return false;
-    threshold *= 0.5;  // couplings thin out as spaces coarsen
+    threshold *= coupling_decay;
     motions = level->coarsen(motions, threshold);
     a = level->galerkin();
     m.coarser.push_back(std::move(level));
