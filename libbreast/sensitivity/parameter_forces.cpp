@@ -138,7 +138,8 @@ Eigen::MatrixXd face_forces(const Scene& scene, const LoadedState& state, std::s
   return out;
 }
 
-// Calls `use(element, nodes, forces, columns)` for elements and skin faces in a fixed order.
+// Calls `use(element, nodes, forces, columns)` for every element, and then every skin face, whose law a
+// parameter is of: a column of `forces` (3 a node) for each of the `columns`. Always in the same order.
 using Use =
     std::function<void(int, const int*, const Eigen::MatrixXd&, const std::vector<Column>&)>;
 
@@ -231,41 +232,53 @@ void add_compliance(const Scene& scene, const LoadedState& state,
   }
 }
 
-ParameterForces of_each(const Scene& scene, const LoadedState& state, ParameterKind role,
-                        const std::vector<Parameter>& parameters) {
-  ParameterForces out;
-  out.force = Eigen::MatrixXd::Zero(3L * scene.nodes(), long(parameters.size()));
-  out.volume = Eigen::MatrixXd::Zero(state.state.p.size(), long(parameters.size()));
+// The derivatives of the elements' forces with respect to the laws, each in its column of `force`.
+void add_law_forces(const Scene& scene, const LoadedState& state,
+                    const std::vector<Parameter>& parameters, Eigen::MatrixXd& force) {
   visit(scene, state, parameters,
         [&](int, const int* nodes, const Eigen::MatrixXd& forces, const std::vector<Column>& own) {
           for (std::size_t k = 0; k < own.size(); ++k) {
-            auto column = out.force.col(own[k].at);
+            auto column = force.col(own[k].at);
             for (long a = 0; a < forces.rows() / 3; ++a) {
               column.segment<3>(3L * nodes[a]) += forces.col(long(k)).segment<3>(3 * a);
             }
           }
         });
-  add_compliance(scene, state, parameters, out.volume);
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const Parameter& parameter = parameters[i];
-    if (parameter.kind == ParameterKind::support) {
-      out.force.col(long(i)) += scene.supports().slope(parameter.name, state.state, state.gravity);
-    } else if (parameter.kind == ParameterKind::density) {
-      out.force.col(long(i)) -= scene.gravity_force(state.gravity);
-    } else if (parameter.kind == ParameterKind::tissue_density) {
-      const Eigen::VectorXd mass = scene.mesh().order == 1
-                                       ? tissue_mass<8>(scene, parameter.tissue)
-                                       : tissue_mass<27>(scene, parameter.tissue);
-      out.force.col(long(i)) -= weight(mass, state.gravity);
-      if (parameter.tissue == Tissue::fat) {  // the density of what supports carry
-        Eigen::VectorXd carried = Eigen::VectorXd::Zero(3L * scene.nodes());
-        scene.supports().add_loads(state.gravity, carried);
-        out.force.col(long(i)) -= carried;
-      }
-    } else if (parameter.kind == role) {
-      out.force.col(long(i)) -= scene.gravity_force(turned_gravity(state.gravity, parameter.axis));
-    }
+}
+
+// The weight of one tissue, µN; of fat with what supports carry, which has fat's density.
+Eigen::VectorXd tissue_weight(const Scene& scene, Tissue tissue, const Vec3& gravity) {
+  Eigen::VectorXd force = weight(
+      scene.mesh().order == 1 ? tissue_mass<8>(scene, tissue) : tissue_mass<27>(scene, tissue),
+      gravity);
+  if (tissue == Tissue::fat) scene.supports().add_loads(gravity, force);
+  return force;
+}
+
+// The derivative of the residual with respect to a parameter of supports or weight, added to its column.
+void add_load_forces(const Scene& scene, const LoadedState& state, ParameterKind role,
+                     const Parameter& parameter, Eigen::MatrixXd::ColXpr column) {
+  if (parameter.kind == ParameterKind::support) {
+    column += scene.supports().slope(parameter.name, state.state, state.gravity);
+  } else if (parameter.kind == ParameterKind::density) {
+    column -= scene.gravity_force(state.gravity);
+  } else if (parameter.kind == ParameterKind::tissue_density) {
+    column -= tissue_weight(scene, parameter.tissue, state.gravity);
+  } else if (parameter.kind == role) {
+    column -= scene.gravity_force(turned_gravity(state.gravity, parameter.axis));
   }
+}
+
+// The forces of parameters of which none is `together`.
+ParameterForces single_forces(const Scene& scene, const LoadedState& state, ParameterKind role,
+                              const std::vector<Parameter>& parameters) {
+  ParameterForces out;
+  out.force = Eigen::MatrixXd::Zero(3L * scene.nodes(), long(parameters.size()));
+  out.volume = Eigen::MatrixXd::Zero(state.state.p.size(), long(parameters.size()));
+  add_law_forces(scene, state, parameters, out.force);
+  add_compliance(scene, state, parameters, out.volume);
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    add_load_forces(scene, state, role, parameters[i], out.force.col(long(i)));
   return out;
 }
 
@@ -285,7 +298,7 @@ ParameterForces parameter_forces(const Scene& scene, const LoadedState& state, P
     }
     column.resize(single.size(), long(i));
   }
-  const ParameterForces each = of_each(scene, state, role, single);
+  const ParameterForces each = single_forces(scene, state, role, single);
   ParameterForces out;
   out.force = Eigen::MatrixXd::Zero(each.force.rows(), long(parameters.size()));
   out.volume = Eigen::MatrixXd::Zero(each.volume.rows(), long(parameters.size()));
