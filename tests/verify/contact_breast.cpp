@@ -13,6 +13,8 @@
 #include "core/units.hpp"
 #include "fixtures/analytic_mesh.hpp"
 #include "fixtures/compress_into.hpp"
+#include "fixtures/in_place.hpp"
+#include "fixtures/laws.hpp"
 #include "fixtures/renumbered.hpp"
 #include "mechanics/estimate/second_solution.hpp"
 #include "mechanics/scene.hpp"
@@ -94,6 +96,33 @@ TEST_P(CompressedBreast, BalancesDoesNotPenetrateAndKeepsVolume) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Views, CompressedBreast, testing::Values(View::cc, View::mlo));
+
+class LawOfSoftTissue : public testing::TestWithParam<Law> {};
+
+// From the scan to the stress-free shape, back to the scan, and between the plates.
+TEST_P(LawOfSoftTissue, CarriesABreastThroughPosturesAndPlates) {
+  MechanicsOptions options = mechanics();
+  for (int t = 0; t < n_tissues; ++t)
+    if (Tissue(t) != Tissue::skin) options.materials.laws[std::size_t(t)] = GetParam();
+  HexMesh mesh = analytic_breast_mesh(5);
+  const std::vector<Vec3> scan = mesh.points;
+  const Vec3 prone = posture_gravity(Posture::prone);
+  ASSERT_TRUE(fixtures::backward_into(mesh, prone, options).converged());
+  HexMesh returned = mesh;
+  ASSERT_TRUE(fixtures::forward_into(returned, prone, options).converged());
+  double apart = 0;
+  for (std::size_t n = 0; n < scan.size(); ++n)
+    apart = std::max(apart, (returned.points[n] - scan[n]).norm());
+  EXPECT_LT(apart, 1e-6);
+  const CompressionResult found = fixtures::compress_into(mesh, halfway(View::cc), options);
+  ASSERT_TRUE(found.converged()) << found.record.reason;
+  EXPECT_LT(found.force_balance, 1e-8);
+  EXPECT_LT(found.max_volume_error, 1e-8);
+  EXPECT_GT(mesh.contact->plates[0].force_N, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, LawOfSoftTissue, testing::ValuesIn(every_law()),
+                         [](const auto& law) { return std::string(law.param.kind->name); });
 
 TEST(Compression, MirrorImageGivesMirrorImage) {
   HexMesh left = stress_free_breast();
