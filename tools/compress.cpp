@@ -259,6 +259,7 @@ void run_compress(Choices c, Run& run) {
   if (mechanics.options().estimate == Estimate::q2 && found.contact) {
     CompressionOptions same_gap = options;
     same_gap.stops = {{StopAt::thickness, found.contact->thickness_mm}};
+    same_gap.plates.middle_at = found.plates.middle();
     same_gap.must_grip = false;
     same_gap.states = 0;
     estimate_by_second_solution(mesh, mechanics.options(), found,

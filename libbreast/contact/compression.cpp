@@ -9,6 +9,7 @@
 #include "contact/faces.hpp"
 #include "contact/failure.hpp"
 #include "contact/grip.hpp"
+#include "contact/heights.hpp"
 #include "contact/results.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -411,7 +412,15 @@ void check(const HexMesh& mesh, const CompressionOptions& options,
 CompressionResult compress(const HexMesh& mesh, const CompressionOptions& options,
                            const MechanicsOptions& mechanics, Progress& progress) {
   check(mesh, options, mechanics);
-  return Compression(mesh, options, mechanics, progress).run();
+  const auto compress_about = [&](std::optional<double> middle) {
+    CompressionOptions about = options;
+    if (middle) about.plates.middle_at = middle;
+    return Compression(mesh, about, mechanics, progress).run();
+  };
+  const bool at_choice = options.plates.image_edge && !options.plates.middle_at &&
+                         options.must_grip && std::isinf(options.plates.detector_rise) &&
+                         options.positioning == Positioning::lifted;
+  return at_choice ? at_best_height(compress_about, progress) : compress_about({});
 }
 
 }  // namespace breast
