@@ -11,11 +11,12 @@
 
 namespace breast {
 
-/// Distance, in mm along the beam and positive towards the detector, by which the plates are moved before the
-/// breast is positioned for the `attempt`-th time again (from 1): a sixteenth of T0 an attempt, away from the
-/// plate whose rounded edge carries the larger share of its force. Absent if no edge of `first` carries too much
-/// or nothing is known of its forces.
-std::optional<double> other_height(const CompressionResult& first, int attempt);
+/// Distance, in mm along the beam and positive towards the detector, by which the plates are moved from their first
+/// height before the breast, whose T0 between them is `initial_thickness` mm, is positioned again. First a sixteenth
+/// of T0, away from the plate whose rounded edge carries the larger share of its force; then as far as would give
+/// both edges the same share by the last two attempts, within a quarter and twice of that; half as far if the last
+/// attempt shows no forces. Absent if no edge carried too much at first, or nothing is known of its forces.
+std::optional<double> next_height(const std::vector<HeightTried>& tried, double initial_thickness);
 
 /// Largest number of attempts after the first.
 constexpr int most_other_heights = 2;

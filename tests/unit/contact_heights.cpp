@@ -41,12 +41,30 @@ struct Script {
   }
 };
 
-TEST(ContactHeights, MoveAwayFromTheLoadedEdgeByASixteenthOfTheThickness) {
-  const CompressionResult low = result_with(SolveStatus::not_gripped, 0.1, 0.6),
-                          high = result_with(SolveStatus::not_gripped, 0.6, 0.1);
-  EXPECT_DOUBLE_EQ(other_height(low, 1).value(), 10);
-  EXPECT_DOUBLE_EQ(other_height(low, 2).value(), 20);
-  EXPECT_DOUBLE_EQ(other_height(high, 1).value(), -10);
+HeightTried tried(double moved, double paddle, double detector) {
+  HeightTried at;
+  at.moved_mm = moved;
+  at.force_N = 50;
+  at.edge_percent[0] = paddle;
+  at.edge_percent[1] = detector;
+  return at;
+}
+
+TEST(ContactHeights, FirstMoveIsASixteenthOfTheThicknessAwayFromTheLoadedEdge) {
+  EXPECT_DOUBLE_EQ(next_height({tried(0, 10, 60)}, 160).value(), 10);
+  EXPECT_DOUBLE_EQ(next_height({tried(0, 60, 10)}, 160).value(), -10);
+}
+
+TEST(ContactHeights, SecondMoveBalancesTheEdges) {
+  // 50 points become 25, or -50, or do not change.
+  EXPECT_DOUBLE_EQ(next_height({tried(0, 10, 60), tried(10, 25, 50)}, 160).value(), 20);
+  EXPECT_DOUBLE_EQ(next_height({tried(0, 10, 60), tried(10, 60, 10)}, 160).value(), 5);
+  EXPECT_DOUBLE_EQ(next_height({tried(0, 60, 10), tried(-10, 10, 60)}, 160).value(), -5);
+  EXPECT_DOUBLE_EQ(next_height({tried(0, 10, 60), tried(10, 10, 60)}, 160).value(), 20);
+}
+
+TEST(ContactHeights, SecondMoveIsHalfOfOneThatFoundNoForces) {
+  EXPECT_DOUBLE_EQ(next_height({tried(0, 10, 60), HeightTried{}}, 160).value(), 5);
 }
 
 TEST(ContactHeights, AnAcceptedViewIsNotPositionedAgain) {
@@ -58,13 +76,12 @@ TEST(ContactHeights, AnAcceptedViewIsNotPositionedAgain) {
 TEST(ContactHeights, AViewThatFailsForAnotherReasonIsNotPositionedAgain) {
   Script script{{result_with(SolveStatus::stopped_early, 0.1, 0.3)}, {}};
   EXPECT_EQ(script.run().heights.size(), 1U);
-  CompressionResult unknown;
-  EXPECT_FALSE(other_height(unknown, 1));
+  EXPECT_FALSE(next_height({HeightTried{}}, 160));
 }
 
 TEST(ContactHeights, TheFirstAcceptedHeightIsTaken) {
   Script script{{result_with(SolveStatus::not_gripped, 0.1, 0.6),
-                 result_with(SolveStatus::not_gripped, 0.1, 0.5),
+                 result_with(SolveStatus::not_gripped, 0.2, 0.45),
                  result_with(SolveStatus::converged, 0.2, 0.3)},
                 {}};
   const CompressionResult found = script.run();

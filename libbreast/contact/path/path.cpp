@@ -30,6 +30,8 @@ constexpr double sought_tolerance = 1e-6;
 /// Plate positions closer than this count as equal, mm.
 constexpr double narrowest_bracket = 1e-4;
 constexpr int most_in_bracket = 40;  ///< positions at which one end is sought
+/// A position in a bracket at which no equilibrium is found is approached this often by half the way.
+constexpr int most_halvings_in_bracket = 4;
 
 /// Two states with a target between them. The thickness at which it is met is sought by the secant
 /// through both, where the weight of an end that stays is halved (Illinois method).
@@ -54,8 +56,8 @@ class Bracket {
   double thickness() const { return low_.thickness + part() * (high_.thickness - low_.thickness); }
   /// Interpolated states keep each solve short. The memory of a state beyond the target is not used,
   /// because friction would keep it.
-  Guess guess() const {
-    const double w = part();
+  Guess guess_at(double thickness) const {
+    const double w = (low_.thickness - thickness) / (low_.thickness - high_.thickness);
     return {{low_.state.reference, (1 - w) * low_.state.x + w * high_.state.x,
              (1 - w) * low_.state.p + w * high_.state.p},
             low_.memory};
@@ -117,6 +119,7 @@ class Path {
   PathEnd end_at(const CompressionTarget& target, Waypoint beyond);
   bool sharpen_up_to(const CompressionTarget& target, Waypoint& beyond);
   PathEnd search_end(const CompressionTarget& target, Waypoint beyond);
+  std::optional<Waypoint> solve_within(const Bracket& bracket);
   PathEnd end_in(const Bracket& bracket, const CompressionTarget& target);
 
   // One position.
@@ -357,8 +360,7 @@ PathEnd Path::search_end(const CompressionTarget& target, Waypoint beyond) {
   for (int k = 0; k < most_in_bracket; ++k) {
     if (bracket.meets_target(options_.control_tolerance) || bracket.is_narrow())
       return end_in(bracket, target);
-    std::optional<Waypoint> middle =
-        solve_at(bracket.thickness(), bracket.guess(), bracket.high().way, sought());
+    std::optional<Waypoint> middle = solve_within(bracket);
     if (!middle) {
       trail_.sharpen(bracket.low());
       return PathEnd::no_equilibrium;
@@ -367,6 +369,18 @@ PathEnd Path::search_end(const CompressionTarget& target, Waypoint beyond) {
   }
   trail_.sharpen(bracket.low());
   return PathEnd::solve_limit;
+}
+
+/// The equilibrium where the target is expected, or else nearer to the end before it.
+std::optional<Waypoint> Path::solve_within(const Bracket& bracket) {
+  double thickness = bracket.thickness();
+  for (int k = 0; k <= most_halvings_in_bracket; ++k) {
+    std::optional<Waypoint> found =
+        solve_at(thickness, bracket.guess_at(thickness), bracket.high().way, sought());
+    if (found) return found;
+    thickness = 0.5 * (thickness + bracket.low().thickness);
+  }
+  return {};
 }
 
 /// Ends at the better end of the bracket. If that lies beyond another target, the end moves there.

@@ -225,6 +225,19 @@ bool SurfaceContact::equilibrate(State& state, double tolerance, double depth, C
   return part.converged;
 }
 
+/// An equilibrium with the plates as stiff as they were at their last position; where there is none within
+/// reach, because the faces of the first guess lie too deep in them, with soft plates.
+bool SurfaceContact::begin(State& state, double tolerance, double allowed, ContactStep& step) {
+  const State given = state;
+  const ContactMemory memory = memory_;
+  if (equilibrate(state, tolerance, allowed, step)) return true;
+  if (fail_fast_ || !(memory.penalty > options_.stiffness)) return false;
+  state = given;
+  memory_ = memory;
+  memory_.penalty = options_.stiffness;
+  return equilibrate(state, tolerance, allowed, step);
+}
+
 /// Increases the stiffness until no point lies too deep, by a smaller factor after each increase for
 /// which no equilibrium is found.
 bool SurfaceContact::stiffen(State& state, double allowed, ContactStep& step) {
@@ -256,7 +269,7 @@ ContactStep SurfaceContact::solve(const PlatePair& plates, State& state, double 
   pressure_->choose_points(state.x);
   const bool on_the_way = tolerance > options_.way_tolerance;
   const double allowed = on_the_way ? options_.way_depth : options_.depth;
-  if (!equilibrate(state, std::max(tolerance, between_tolerance), allowed, step)) return step;
+  if (!begin(state, std::max(tolerance, between_tolerance), allowed, step)) return step;
   if (!stiffen(state, allowed, step)) return step;
   for (int k = 0; k < most_choices; ++k) {
     if (!equilibrate(state, tolerance, allowed, step)) return step;

@@ -61,6 +61,7 @@ class SurfaceContact : public ContactSolver {
     }
   };
   bool equilibrate(State& state, double tolerance, double depth, ContactStep& step);
+  bool begin(State& state, double tolerance, double allowed, ContactStep& step);
   bool stiffen(State& state, double allowed, ContactStep& step);
   void finish(const State& state, ContactStep& step);
   std::vector<NodalContact> nodal_contacts(const Eigen::VectorXd& x) const;
