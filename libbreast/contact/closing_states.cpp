@@ -22,7 +22,7 @@ struct Position {
 };
 
 Position at_waypoint(const Waypoint& at) {
-  return {at.thickness, at.way, {at.state, at.memory}};
+  return {at.thickness, at.way, {at.state, at.memory, at.plates_moved}};
 }
 
 /// Between two positions of the path, with the friction of the first.
@@ -32,7 +32,8 @@ Position between(const Waypoint& before, const Waypoint& beyond, double thicknes
           before.way + w * (beyond.way - before.way),
           {{before.state.reference, (1 - w) * before.state.x + w * beyond.state.x,
             (1 - w) * before.state.p + w * beyond.state.p},
-           before.memory}};
+           before.memory,
+           before.plates_moved + w * (beyond.plates_moved - before.plates_moved)}};
 }
 
 class ClosingStates {
@@ -90,6 +91,7 @@ ClosingState ClosingStates::at(double thickness) {
 
 bool ClosingStates::solve(const Position& position, ClosingState& state) {
   PlatePair plates = found_.plates;
+  plates.moved = position.guess.plates_moved;
   plates.close_to(position.thickness);
   if (path_.prepare) path_.prepare(position.way);
   State solution = position.guess.state;

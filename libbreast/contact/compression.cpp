@@ -9,7 +9,6 @@
 #include "contact/faces.hpp"
 #include "contact/failure.hpp"
 #include "contact/grip.hpp"
-#include "contact/heights.hpp"
 #include "contact/results.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -51,6 +50,7 @@ class Compression {
   void place(const State& start);
   void set_target();
   PathOptions path_options(const ContactSolver& contact);
+  double weight_along_beam_N() const;
   bool has_let_go(const State& state);
   void close_plates(State& state);
   void record_path();
@@ -119,6 +119,7 @@ PathOptions Compression::path_options(const ContactSolver& contact) {
   path.control_tolerance = std::max(path.control_tolerance, contact.resolution());
   path.keep = options_.states > 0;
   if (options_.positioning == Positioning::hanging) return path;
+  if (options_.follows_breast()) path.balanced_weight_N = weight_along_beam_N();
   const Hand hand;
   path.prepare = [this, hand](double way) {
     body_.set_load(hand.weight.at(way) * load_ + (1 - hand.pull.at(way)) * pull_);
@@ -129,6 +130,10 @@ PathOptions Compression::path_options(const ContactSolver& contact) {
   path.slipping_to = hand.pull.ends;
   path.may_end_from = hand.gone_from();
   return path;
+}
+
+double Compression::weight_along_beam_N() const {
+  return (scene_.weight(options_.gravity) / micronewton_per_newton).dot(found_.pose.n);
 }
 
 /// Whether only the plates hold the breast at the end of the path. If a hand still does, this is
@@ -412,15 +417,7 @@ void check(const HexMesh& mesh, const CompressionOptions& options,
 CompressionResult compress(const HexMesh& mesh, const CompressionOptions& options,
                            const MechanicsOptions& mechanics, Progress& progress) {
   check(mesh, options, mechanics);
-  const auto compress_about = [&](std::optional<double> middle) {
-    CompressionOptions about = options;
-    if (middle) about.plates.middle_at = middle;
-    return Compression(mesh, about, mechanics, progress).run();
-  };
-  const bool at_choice = options.plates.image_edge && !options.plates.middle_at &&
-                         options.must_grip && std::isinf(options.plates.detector_rise) &&
-                         options.positioning == Positioning::lifted;
-  return at_choice ? at_best_height(compress_about, progress) : compress_about({});
+  return Compression(mesh, options, mechanics, progress).run();
 }
 
 }  // namespace breast

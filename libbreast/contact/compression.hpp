@@ -36,6 +36,9 @@ struct CompressionOptions {
   double pull_N = 0;    ///< force with which the hand pulls the lifted breast forwards
   double friction = 0;  ///< Coulomb's μ between skin and plates
   PathOptions path;
+  /// Whether the plates' mid-plane follows the breast along the beam: of a lifted breast between plates that are
+  /// placed by the edge of the image, unless the height of a plate is given.
+  bool follows_breast() const;
   int states = 0;  ///< number of CompressionResult::states, at least 2, or none
 };
 
@@ -44,16 +47,6 @@ struct ClosingState : Equilibrium {
   double thickness = 0;     ///< mm, also of a state that was not found
   double hand_carries = 0;  ///< share of the breast's weight that a hand still carries
   double hand_pulls_N = 0;  ///< force with which it still pulls the breast forwards
-};
-
-/// An attempt to compress the breast, with the plates at a height of their own.
-struct HeightTried {
-  double moved_mm = 0;  ///< along the beam, positive towards the detector
-  SolveStatus status = SolveStatus::not_converged;
-  bool accepted = false;  ///< converged, or stopped early in an acceptable state
-  double thickness_mm = 0, force_N = 0;
-  double edge_percent[2] = {0, 0};  ///< share of the rounded edges of paddle and detector
-  int newton_iterations = 0;
 };
 
 /// A compressed breast. Pose, thickness and the plates' forces are those of Equilibrium::contact.
@@ -78,8 +71,6 @@ struct CompressionResult : Equilibrium {
   /// Of plates placed by the edge of the image: the state is within the ranges that decide, whether or
   /// not the target was reached.
   bool acceptable = false;
-  /// Every height of the plates that was tried, from the first (contact/heights.hpp).
-  std::vector<HeightTried> heights;
   /// If asked for, and unless this result is sure to be refused: equilibria from first contact to it,
   /// which is the last, in equal steps of thickness (contact/closing_states.hpp).
   std::vector<ClosingState> states;
@@ -87,8 +78,7 @@ struct CompressionResult : Equilibrium {
 
 /// Compresses mesh.reference. A compression that stops early returns its last equilibrium with the status
 /// stopped_early and the reason, and one that does not grip the breast the status not_gripped; if gravity
-/// alone does not converge, the status is not_converged. Plates that are placed by the edge of the image, and
-/// whose height is not given, are moved along the beam where the breast rests on a rounded edge. Throws Error (input) when the plates miss the breast
+/// alone does not converge, the status is not_converged. Throws Error (input) when the plates miss the breast
 /// or an option is out of range.
 CompressionResult compress(const HexMesh& mesh, const CompressionOptions& options,
                            const MechanicsOptions& mechanics, Progress& progress = no_progress());

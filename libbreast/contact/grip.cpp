@@ -15,6 +15,8 @@ constexpr double usual_force_N = 110, least_force_N = 50, least_thickness_mm = 3
 constexpr double force_N_per_cm2 = 1.5;
 
 constexpr double least_pressed = 25, least_contact_percent = 40;
+/// Share of the force on a rounded edge, percent, from which the flat part does not hold the breast.
+constexpr double most_edge_percent = 40;
 
 }  // namespace
 

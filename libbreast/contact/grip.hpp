@@ -22,9 +22,6 @@ std::vector<CompressionStop> clinical_stops(double projected_cm2);
 /// edge of the image: 25 cm², and 40 % of the breast's projection.
 double least_pressed_cm2(double projected_cm2);
 
-/// Share of the force on a rounded edge, percent, from which the flat part does not hold the breast.
-constexpr double most_edge_percent = 40;
-
 /// One statement on the grip of plates that are placed by the edge of the image ("gripped"), or a doubt
 /// for each reason why they do not grip: they touch less than 40 % of the breast's projection
 /// ("contact_too_small"), or the rounded edge of one carries 40 % of its force or more

@@ -111,6 +111,11 @@ Placement Placement::clinical(View view) {
   return placement;
 }
 
+bool CompressionOptions::follows_breast() const {
+  return plates.image_edge && !plates.middle_at && std::isinf(plates.detector_rise) &&
+         positioning == Positioning::lifted;
+}
+
 CompressionOptions compression_options(const CompressionChoices& c, const Vec3& gravity,
                                        const CompressedBody& body) {
   check(c);

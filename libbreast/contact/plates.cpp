@@ -224,8 +224,8 @@ void PlatePair::close_to(double thickness) {
   // Each plate moves by one half until the detector has reached its highest position; then only the
   // paddle moves.
   const double risen = std::min(0.5 * closing, detector_rise);
-  paddle.level = paddle_start + closing - risen;
-  detector.level = detector_start - risen;
+  paddle.level = paddle_start + moved + closing - risen;
+  detector.level = detector_start + moved - risen;
 }
 
 double PlatePair::paddle_share() const {

@@ -78,7 +78,8 @@ struct PlateOptions {
   /// Coordinate of the start of the rounded edge along the anterior axis (−y of the patient),
   /// instead of standoff, so that several meshes of a breast can have the same plates.
   std::optional<double> edge_at;
-  /// Coordinate, along the beam, of the plane about which the plates close; for the same purpose.
+  /// Coordinate, along the beam, of the plane about which the plates close; for the same purpose. It then stays there
+  /// (CompressionOptions::follows_breast).
   std::optional<double> middle_at;
   /// Distance from the most anterior chest-wall point to the edge of the image, where the rounded
   /// edge starts; instead of standoff, which also considers points of the cut.
@@ -107,18 +108,19 @@ struct PlatePair {
   double underside = 0;           ///< h of the lower end of the body as it hangs over the detector
   double wall_point = 0;          ///< a of the most anterior pectoral or cut point
   double standoff = 0;
-  Vec3 angle_axis{0, -1, 0};                                       ///< ViewPose::angle_axis
-  double paddle_start = 0, detector_start = 0;                     ///< levels at T0
+  Vec3 angle_axis{0, -1, 0};                    ///< ViewPose::angle_axis
+  double paddle_start = 0, detector_start = 0;  ///< levels at T0
+  double moved = 0;  ///< of the mid-plane along the beam since then, mm, towards the detector
   double detector_rise = std::numeric_limits<double>::infinity();  ///< mm, as in PlateOptions
 
-  /// Moves both plates to thickness T (mm).
+  /// Moves both plates to thickness T (mm), about the mid-plane where it is now.
   void close_to(double thickness);
   double thickness() const { return detector.level - paddle.level; }
   /// Share of the paddle in any further closing: one half, or one if the detector has reached its
   /// highest position.
   double paddle_share() const;
   /// Coordinate, along the beam, of the plane about which the plates close, mm.
-  double middle() const { return 0.5 * (paddle_start + detector_start); }
+  double middle() const { return 0.5 * (paddle_start + detector_start) + moved; }
   /// The plate with the smaller gap (0 paddle, 1 detector).
   int nearer(const Vec3& x) const;
   const Plate& plate(int k) const { return k == 0 ? paddle : detector; }

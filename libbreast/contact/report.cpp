@@ -8,27 +8,6 @@
 
 namespace breast {
 
-namespace {
-
-/// Nothing if the plates stood as they stand by themselves.
-void report_heights(const std::vector<HeightTried>& heights, Report& report) {
-  if (heights.size() < 2) return;
-  const auto each = [&](const char* key, const auto& value) {
-    std::vector<double> values;
-    for (const HeightTried& height : heights) values.push_back(value(height));
-    report.set(std::string("heights/") + key, values);
-  };
-  each("moved_mm", [](const HeightTried& h) { return h.moved_mm; });
-  each("accepted", [](const HeightTried& h) { return h.accepted ? 1.0 : 0.0; });
-  each("thickness_mm", [](const HeightTried& h) { return h.thickness_mm; });
-  each("force_N", [](const HeightTried& h) { return h.force_N; });
-  each("paddle_edge_percent", [](const HeightTried& h) { return h.edge_percent[0]; });
-  each("detector_edge_percent", [](const HeightTried& h) { return h.edge_percent[1]; });
-  each("newton_iterations", [](const HeightTried& h) { return double(h.newton_iterations); });
-}
-
-}  // namespace
-
 void write_report(const CompressionResult& summary, const HexMesh& mesh,
                   const MechanicsOptions& mechanics, Report& report) {
   write_report(static_cast<const Equilibrium&>(summary), mesh, mechanics, report);
@@ -50,7 +29,6 @@ void write_report(const CompressionResult& summary, const HexMesh& mesh,
     report.set("surface_stiffness_Pa_per_mm", contact.surface_stiffness);
   }
   report.set("middle_at_mm", summary.plates.middle());
-  report_heights(summary.heights, report);
   report.set("detector_raised_mm", summary.plates.underside - summary.plates.detector.level);
   report.set("edge_radius_mm", contact.plates[0].edge_radius);
   report.set("view", view_name(contact.view));

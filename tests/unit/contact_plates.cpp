@@ -126,6 +126,12 @@ TEST(Plates, PlacementMeasuresStandoffAndThickness) {
   const Vec3 middle(25, -42.5, 20);
   EXPECT_NEAR(plates.paddle.gap(middle).value, 15, 1e-12);
   EXPECT_NEAR(plates.detector.gap(middle).value, 15, 1e-12);
+  // The mid-plane follows the breast.
+  plates.moved = 4;
+  plates.close_to(30);
+  EXPECT_NEAR(plates.thickness(), 30, 1e-12);
+  EXPECT_NEAR(plates.paddle.gap(middle).value, 11, 1e-12);
+  EXPECT_NEAR(plates.detector.gap(middle).value, 19, 1e-12);
 }
 
 TEST(Plates, StandoffFollowsTheDepthUpToALimit) {

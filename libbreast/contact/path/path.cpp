@@ -16,6 +16,7 @@
 #include <cmath>
 #include <optional>
 
+#include "contact/path/mid_plane.hpp"
 #include "contact/path/step_length.hpp"
 #include "core/error.hpp"
 
@@ -60,7 +61,8 @@ class Bracket {
     const double w = (low_.thickness - thickness) / (low_.thickness - high_.thickness);
     return {{low_.state.reference, (1 - w) * low_.state.x + w * high_.state.x,
              (1 - w) * low_.state.p + w * high_.state.p},
-            low_.memory};
+            low_.memory,
+            (1 - w) * low_.plates_moved + w * high_.plates_moved};
   }
   void shrink_to(Waypoint middle) {
     const double there = excess(middle);
@@ -185,9 +187,9 @@ void Path::add_corners() {
 /// The state from which the plates start: without contact, or the end of an earlier path. The trail
 /// begins at `state` itself, where the path ends if there is no equilibrium at its first position.
 bool Path::solve_start(const State& state) {
-  trail_.begin({state, solver_.memory(), plates_.thickness(), {}, 0, state});
-  std::optional<Waypoint> start =
-      solve_at(plates_.thickness(), {state, solver_.memory()}, 0, options_.path_tolerance);
+  trail_.begin({state, solver_.memory(), plates_.thickness(), {}, 0, plates_.moved, state});
+  std::optional<Waypoint> start = solve_at(
+      plates_.thickness(), {state, solver_.memory(), plates_.moved}, 0, options_.path_tolerance);
   if (!start) return false;
   keep(*start);
   trail_.begin(std::move(*start));
@@ -238,8 +240,12 @@ PathEnd Path::close_plates() {
 
 std::optional<Waypoint> Path::try_step(double thickness, const StepLength& step) {
   const Waypoint& here = trail_.here();
-  const Guess guess =
+  Guess guess =
       extrapolate(here, step.distrusts_extrapolation() ? nullptr : trail_.before(), thickness);
+  if (options_.balanced_weight_N) {
+    guess.plates_moved +=
+        mid_plane_move(here.point, here.thickness - thickness, *options_.balanced_weight_N);
+  }
   solver_.set_fail_fast(!patient_ && step.may_fail_fast(std::abs(thickness - here.thickness)));
   std::optional<Waypoint> reached = solve_at(thickness, guess, expected_way(thickness), tolerance_);
   solver_.set_fail_fast(false);
@@ -249,7 +255,7 @@ std::optional<Waypoint> Path::try_step(double thickness, const StepLength& step)
 /// Where even the shortest step passes a target before the path may end: the same position with the
 /// load of the end of the way.
 std::optional<Waypoint> Path::let_go_at(const Waypoint& reached) {
-  return solve_at(reached.thickness, {reached.state, reached.memory},
+  return solve_at(reached.thickness, {reached.state, reached.memory, reached.plates_moved},
                   std::max(reached.way, options_.may_end_from), tolerance_);
 }
 
@@ -293,6 +299,7 @@ PathResult Path::conclude(State& state) {
   if (result_.reached()) result_.failed_trial.resize(0);
   const Waypoint& here = trail_.here();
   keep(here);
+  plates_.moved = here.plates_moved;
   plates_.close_to(here.thickness);
   solver_.restore(here.memory);
   result_.thickness = here.thickness;
@@ -404,6 +411,7 @@ PathEnd Path::end_in(const Bracket& bracket, const CompressionTarget& target) {
 /// The equilibrium with the plates at a thickness, if it is found.
 std::optional<Waypoint> Path::solve_at(double thickness, const Guess& guess, double way,
                                        double tolerance) {
+  plates_.moved = guess.plates_moved;
   plates_.close_to(thickness);
   if (options_.prepare) options_.prepare(way);
   State state = guess.state;
@@ -420,14 +428,15 @@ std::optional<Waypoint> Path::solve_at(double thickness, const Guess& guess, dou
   tell(point);
   State moved = step.softer.value_or(state);
   result_.final_step = std::move(step);
-  return Waypoint{std::move(state), solver_.memory(), thickness, point, way, std::move(moved)};
+  return Waypoint{std::move(state),   solver_.memory(), thickness, point, way,
+                  guess.plates_moved, std::move(moved)};
 }
 
 /// The last state, solved again to this residual. It replaces its point on the path.
 std::optional<Waypoint> Path::sharpened(double tolerance) {
   const Waypoint& here = trail_.here();
   std::optional<Waypoint> sharp =
-      solve_at(here.thickness, {here.state, here.memory}, here.way, tolerance);
+      solve_at(here.thickness, {here.state, here.memory, here.plates_moved}, here.way, tolerance);
   std::vector<PathPoint>& points = result_.points;
   const std::size_t n = points.size();
   if (sharp && n >= 2 && points[n - 2].thickness == points[n - 1].thickness) {

@@ -25,6 +25,7 @@ struct CompressionTarget {
 struct PathPoint {
   double thickness = 0;  ///< mm
   double paddle_N = 0, detector_N = 0, pressure_kPa = 0, area_cm2 = 0;
+  double paddle_edge_N = 0, detector_edge_N = 0;  ///< of the force, that on the rounded edge
   int iterations = 0;
 };
 

@@ -38,6 +38,12 @@ PathPoint path_point(const ContactSolver& solver, const PlatePair& plates, const
         (contact.normal * plate.gap(x).gradient + contact.tangential).dot(plate.normal());
     (contact.plate == 0 ? point.paddle_N : point.detector_N) += along / micronewton_per_newton;
   }
+  for (const PressedPoint& pressed : step.pressed) {
+    const Plate& plate = plates.plate(pressed.plate);
+    if (!(pressed.at.dot(plate.anterior) < plate.edge_start)) continue;
+    const double along = pressed.force.dot(plate.normal()) / micronewton_per_newton;
+    (pressed.plate == 0 ? point.paddle_edge_N : point.detector_edge_N) += along;
+  }
   point.area_cm2 = paddle_area / mm2_per_cm2;
   if (paddle_area > 0) {
     point.pressure_kPa =
@@ -47,7 +53,7 @@ PathPoint path_point(const ContactSolver& solver, const PlatePair& plates, const
 }
 
 Guess extrapolate(const Waypoint& here, const Waypoint* before, double thickness) {
-  Guess guess{here.state, here.memory};
+  Guess guess{here.state, here.memory, here.plates_moved};
   if (before == nullptr) return guess;
   const double ratio = (thickness - here.thickness) / (here.thickness - before->thickness);
   guess.state.x += ratio * (here.moved.x - before->state.x);

@@ -18,7 +18,8 @@ struct Waypoint {
   ContactMemory memory;
   double thickness = 0;  ///< mm
   PathPoint point;
-  double way = 0;  ///< the part of the way to the target for which its load was set
+  double way = 0;           ///< the part of the way to the target for which its load was set
+  double plates_moved = 0;  ///< PlatePair::moved
   /// The state to which the motion of the plates alone led: `state`, unless the plates became stiffer
   /// at the same position.
   State moved;
@@ -33,6 +34,7 @@ PathPoint path_point(const ContactSolver& solver, const PlatePair& plates, const
 struct Guess {
   State state;
   ContactMemory memory;
+  double plates_moved = 0;  ///< PlatePair::moved there
 };
 
 /// Extrapolates positions, pressures, and the friction bounds of the nodes that stay on their plate
