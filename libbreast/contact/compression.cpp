@@ -119,8 +119,12 @@ PathOptions Compression::path_options(const ContactSolver& contact) {
   path.control_tolerance = std::max(path.control_tolerance, contact.resolution());
   path.keep = options_.states > 0;
   if (options_.positioning == Positioning::hanging) return path;
-  if (options_.follows_breast()) path.balanced_weight_N = weight_along_beam_N();
   const Hand hand;
+  if (options_.follows_breast()) {
+    path.weight_N = [hand, whole = weight_along_beam_N()](double way) {
+      return hand.weight.at(way) * whole;
+    };
+  }
   path.prepare = [this, hand](double way) {
     body_.set_load(hand.weight.at(way) * load_ + (1 - hand.pull.at(way)) * pull_);
   };

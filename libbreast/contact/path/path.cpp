@@ -242,9 +242,9 @@ std::optional<Waypoint> Path::try_step(double thickness, const StepLength& step)
   const Waypoint& here = trail_.here();
   Guess guess =
       extrapolate(here, step.distrusts_extrapolation() ? nullptr : trail_.before(), thickness);
-  if (options_.balanced_weight_N) {
+  if (options_.weight_N) {
     guess.plates_moved +=
-        mid_plane_move(here.point, here.thickness - thickness, *options_.balanced_weight_N);
+        mid_plane_move(here.point, here.thickness - thickness, options_.weight_N(here.way));
   }
   solver_.set_fail_fast(!patient_ && step.may_fail_fast(std::abs(thickness - here.thickness)));
   std::optional<Waypoint> reached = solve_at(thickness, guess, expected_way(thickness), tolerance_);

@@ -38,9 +38,9 @@ struct PathOptions {
   std::vector<double> corners;
   /// A target other than a thickness may end the path from this part of the way on.
   double may_end_from = 0;
-  /// The weight of the body along the beam, N, towards the detector, if the plates' mid-plane follows the
-  /// breast (mid_plane_move); otherwise it stays.
-  std::optional<double> balanced_weight_N;
+  /// If the plates' mid-plane follows the breast (mid_plane_move): the weight along the beam, N, towards the
+  /// detector, that no hand carries at this part of the way.
+  std::function<double(double)> weight_N;
   /// Whether PathResult::kept is filled.
   bool keep = false;
 };
