@@ -36,8 +36,9 @@ scan_name := $(firstword $(foreach e,.nii.gz .nii .nrrd .nhdr .mha .mhd .vtkhdf,
 RUN := $(RUNS)/$(CASE)$(if $(PAPER),-as-printed)
 
 # ---- the model ---------------------------------------------------------------------------------------------
-# A living breast slides on the chest wall and is soft; the breast of the paper is held there and has the materials of Table II.
-MATERIALS ?= $(if $(PAPER),seed2008,$(if $(phantom),$(if $(body_slides),invivo,seed2008),invivo))
+# A living breast slides on the chest wall and is soft, and its borders are held as in women; the phantoms that slide were shaped for
+# the set invivo. The breast of the paper is held at the chest wall and has the materials of Table II.
+MATERIALS ?= $(if $(PAPER),seed2008,$(if $(phantom),$(if $(body_slides),invivo,seed2008),invivo-borders))
 # $(call set_of,NAME): the file of a material set: one that a rule makes, one of the user's, or one of ours. $(call rows_in,FILE): its
 # rows as tissue=law. A set with a support at the chest wall is one for a breast that slides.
 set_of = $(or $(filter $(RUN)/%,$1),$(wildcard $1),$(PIPELINES)/materials/$1.tsv)

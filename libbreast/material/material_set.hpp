@@ -54,7 +54,7 @@ struct MaterialSet {
 
 /// The set with which a chain begins unless another one is given: the default of backward and of the
 /// pipeline. All later stages take the model that is stated in their input.
-inline constexpr const char* default_material_set = "invivo";
+inline constexpr const char* default_material_set = "invivo-borders";
 
 /// Named set (one of material_set_names()) or a TSV file of the same columns.
 MaterialSet load_materials(const std::string& name_or_file);

@@ -54,7 +54,7 @@ has "$work/runs/average|invivo||measured|16||" "${model[@]}" --
 has "$work/runs/paper|seed2008|50|0|0|40|" "${model[@]}" -- PRESET=paper
 has "$work/runs/paper-as-printed|seed2008|50|||30|" "${model[@]}" -- PAPER=1
 has "$work/runs/average|seed2008|50|0|0|40|" "${model[@]}" -- MATERIALS=seed2008
-has "$work/runs/x-left|invivo||measured|16||" "${model[@]}" -- MR=/no/x.nii.gz
+has "$work/runs/x-left|invivo-borders||measured|16||" "${model[@]}" -- MR=/no/x.nii.gz
 has "--force 80 --thickness 40|" STOPS -- FORCE=80 THICKNESS=40 PRESET=paper
 has "paper|left|$work/runs/paper|" PRESET SIDE RUN -- tables
 has "$work/runs/1.2.840-right|none|no|" RUN TUMOUR PAGE_SCAN -- MR=1.2.840/ SIDE=right
