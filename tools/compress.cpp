@@ -45,7 +45,8 @@ void declare(Tool& tool, Choices& c) {
       "Otherwise contact is enforced exactly at the nodes, without a penalty; worst_gap_mm in "
       "the report is the depth to which faces penetrate a rounded edge between nodes. Unless "
       "--detector says otherwise, both plates move symmetrically about the mid-plane of the "
-      "stress-free breast, so that the breast is not dragged along the chest wall. The "
+      "stress-free breast, so that the breast is not dragged along the chest wall; with --image-edge "
+      "this plane then follows the breast along the beam until both plates press alike. The "
       "stand-off is the distance from the most anterior chest-wall or cut point to the start of "
       "the plates' rounded edge; the force depends strongly on it.");
   tool.describe(
@@ -156,8 +157,11 @@ void declare(Tool& tool, Choices& c) {
       "where the rounded edge starts, as a coordinate along the depth of the plates; replaces the "
       "distance from the chest wall",
       -1e4, 1e4);
-  tool.number(c.plates.middle_at, "--middle-at", "MM",
-              "the plane about which the plates close, as a coordinate along the beam", -1e4, 1e4);
+  tool.number(
+      c.plates.middle_at, "--middle-at", "MM",
+      "the plane about which the plates close, as a coordinate along the beam (default: the "
+      "mid-plane of the breast, which with --image-edge follows the breast)",
+      -1e4, 1e4);
   tool.number(
       c.edge_radius, "--edge-radius", "MM",
       "radius of the plates' rounded edges, at least 1 (default: 3 for CC with --image-edge, otherwise "
