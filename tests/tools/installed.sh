@@ -61,7 +61,7 @@ said "average/page.html" breast page --dry-run
 said "average/report.html" breast demo --target report --dry-run
 said "laws (libbreast) " breast laws --version
 said "fibroglandular" breast laws seed2008
-refused "did you mean 'compress'?" breast compres
+refused "did you mean 'compress'" breast compres
 refused "--no-such" breast laws seed2008 --no-such
 refused "give a command" breast
 pass "version, list, help, a tool; an unknown command and option"
