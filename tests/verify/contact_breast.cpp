@@ -398,6 +398,38 @@ TEST(Compression, ATargetWithoutAGripIsRefusedWithItsReason) {
   EXPECT_EQ(found.reason_id, "not_gripped");
 }
 
+// On a wall that yields along itself, plates about another plane drag the breast; those that follow it do not.
+TEST(Compression, TheMidPlaneFollowsTheBreastUntilBothPlatesPressAlike) {
+  CompressionOptions options = halfway(View::cc);
+  options.method = ContactMethod::surface;
+  options.positioning = Positioning::lifted;
+  options.friction = 0.15;
+  options.plates.image_edge = 5;
+  options.plates.edge_radius = 3;
+  options.stops = {{StopAt::reduction, 25}};
+  options.must_grip = false;
+  MechanicsOptions soft = mechanics();
+  soft.wall = wall_support("spring:1,0.01");
+  HexMesh mesh = analytic_breast_mesh(5);
+  mesh.reference = mesh.points;
+  // What the wall has to carry along the beam, as part of the smaller plate's force.
+  const auto dragged = [&](const CompressionResult& found) {
+    const std::vector<PlateRecord>& plates = found.contact->plates;
+    return std::abs(plates[1].force_N - plates[0].force_N - found.weight_N) /
+           std::min(plates[0].force_N, plates[1].force_N);
+  };
+  ASSERT_TRUE(options.follows_breast());
+  const CompressionResult follows = compress(mesh, options, soft);
+  ASSERT_TRUE(follows.converged()) << follows.record.reason;
+  options.plates.middle_at = follows.plates.middle() + 12;
+  ASSERT_FALSE(options.follows_breast());
+  const CompressionResult stays = compress(mesh, options, soft);
+  ASSERT_TRUE(stays.converged()) << stays.record.reason;
+  EXPECT_NEAR(stays.plates.middle(), *options.plates.middle_at, 1e-9);
+  EXPECT_LT(dragged(follows), 0.3 * dragged(stays));
+  EXPECT_LT(dragged(follows), 0.1);
+}
+
 // Friction and springs take part in the error estimate: against a second solution with 27-node
 // elements at the same gap.
 TEST(Compression, ErrorIsEstimatedWithFrictionAndWithSprings) {
