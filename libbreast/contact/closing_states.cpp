@@ -25,15 +25,10 @@ Position at_waypoint(const Waypoint& at) {
   return {at.thickness, at.way, {at.state, at.memory, at.plates_moved}};
 }
 
-/// Between two positions of the path, with the friction of the first.
 Position between(const Waypoint& before, const Waypoint& beyond, double thickness) {
   const double w = (before.thickness - thickness) / (before.thickness - beyond.thickness);
-  return {thickness,
-          before.way + w * (beyond.way - before.way),
-          {{before.state.reference, (1 - w) * before.state.x + w * beyond.state.x,
-            (1 - w) * before.state.p + w * beyond.state.p},
-           before.memory,
-           before.plates_moved + w * (beyond.plates_moved - before.plates_moved)}};
+  return {thickness, before.way + w * (beyond.way - before.way),
+          interpolate(before, beyond, thickness)};
 }
 
 class ClosingStates {

@@ -81,7 +81,7 @@ Coverage coverage(const HexTopology& mesh, const Eigen::VectorXd& x, const Plate
       const double volume = point.weight * jacobian.determinant();
       all += volume;
       gland += glandular * volume;
-      if (!(place.dot(plate.anterior) >= plate.edge_start)) continue;
+      if (!(plate.in_front(place) >= 0)) continue;
       seen += volume;
       gland_seen += glandular * volume;
     }
@@ -98,7 +98,7 @@ double projected_cm2(const HexTopology& mesh, const std::vector<Vec3>& x, const 
     const std::vector<int> nodes = face_nodes(mesh, face);
     for (const auto& [local, weight] : gauss_square(3)) {
       const FacePoint point = face_point(nodes, x, quad_shape(mesh.order, local));
-      if (!(point.at.dot(plate.anterior) >= plate.edge_start)) continue;
+      if (!(plate.in_front(point.at) >= 0)) continue;
       both_sides += weight * std::abs(point.area.dot(plate.n));
     }
   }

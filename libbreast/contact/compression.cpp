@@ -50,7 +50,6 @@ class Compression {
   void place(const State& start);
   void set_target();
   PathOptions path_options(const ContactSolver& contact);
-  double weight_along_beam_N() const;
   bool has_let_go(const State& state);
   void close_plates(State& state);
   void record_path();
@@ -121,9 +120,9 @@ PathOptions Compression::path_options(const ContactSolver& contact) {
   if (options_.positioning == Positioning::hanging) return path;
   const Hand hand;
   if (options_.follows_breast()) {
-    path.weight_N = [hand, whole = weight_along_beam_N()](double way) {
-      return hand.weight.at(way) * whole;
-    };
+    const double whole =
+        (scene_.weight(options_.gravity) / micronewton_per_newton).dot(found_.pose.n);
+    path.weight_N = [hand, whole](double way) { return hand.weight.at(way) * whole; };
   }
   path.prepare = [this, hand](double way) {
     body_.set_load(hand.weight.at(way) * load_ + (1 - hand.pull.at(way)) * pull_);
@@ -134,10 +133,6 @@ PathOptions Compression::path_options(const ContactSolver& contact) {
   path.slipping_to = hand.pull.ends;
   path.may_end_from = hand.gone_from();
   return path;
-}
-
-double Compression::weight_along_beam_N() const {
-  return (scene_.weight(options_.gravity) / micronewton_per_newton).dot(found_.pose.n);
 }
 
 /// Whether only the plates hold the breast at the end of the path. If a hand still does, this is

@@ -45,8 +45,8 @@ Extent footprint_extent(const HexTopology& mesh, const std::vector<Vec3>& x, con
     for (int c = 0; c < 4; ++c) {
       const Vec3& here = x[nodes[c]];
       const Vec3& next = x[nodes[(c + 1) % 4]];
-      const double a = here.dot(plate.anterior) - plate.edge_start;
-      const double b = next.dot(plate.anterior) - plate.edge_start;
+      const double a = plate.in_front(here);
+      const double b = plate.in_front(next);
       if (a >= 0 && inside(here)) extent.add(here.dot(plate.n));
       if ((a < 0) != (b < 0)) {
         const Vec3 crossing = here + a / (a - b) * (next - here);
@@ -55,7 +55,7 @@ Extent footprint_extent(const HexTopology& mesh, const std::vector<Vec3>& x, con
     }
     for (std::size_t c = 4; c < nodes.size(); ++c) {
       const Vec3& here = x[nodes[c]];
-      if (here.dot(plate.anterior) >= plate.edge_start && inside(here)) {
+      if (plate.in_front(here) >= 0 && inside(here)) {
         extent.add(here.dot(plate.n));
       }
     }

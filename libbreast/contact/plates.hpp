@@ -48,6 +48,8 @@ struct Plate {
   /// Distance by which the plate must retreat along the beam so that the point lies outside, mm; 0
   /// if it already does.
   double overlap(const Vec3& x) const;
+  /// How far a point lies in front of the start of the rounded edge, mm.
+  double in_front(const Vec3& x) const { return x.dot(anterior) - edge_start; }
   /// Displacement of the plate along the beam, and hence of points fixed to it, mm.
   Vec3 shift() const { return level * n; }
   /// Unit normal of the flat, from the plate into the gap.

@@ -81,8 +81,7 @@ void write_report(const CompressionResult& summary, const HexMesh& mesh,
   }
   for (const Landmark& landmark : mesh.landmarks) {
     const Vec3 at = landmark_position(mesh, summary.points, landmark);
-    report.set("coverage/" + landmark.name + "_in_front_mm",
-               at.dot(summary.plates.paddle.anterior) - summary.plates.paddle.edge_start);
+    report.set("coverage/" + landmark.name + "_in_front_mm", summary.plates.paddle.in_front(at));
   }
   for (const auto& [tissue, range] : summary.strains) {
     const std::string key = "strain/" + std::string(tissue_name(tissue)) + "/";

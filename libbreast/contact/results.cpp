@@ -74,7 +74,7 @@ Vec3 record_plate(const std::vector<PressedPoint>& points, int k, const Plate& p
     if (point.plate != k) continue;
     force += point.force;
     const double along = point.force.dot(record.normal) / micronewton_per_newton;
-    const double in_front = point.at.dot(plate.anterior) - plate.edge_start;
+    const double in_front = plate.in_front(point.at);
     (in_front < 0               ? place.behind_edge_N
      : in_front < first_zone_mm ? place.first_20mm_N
                                 : place.beyond_20mm_N) += along;

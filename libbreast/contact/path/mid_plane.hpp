@@ -8,9 +8,9 @@
 namespace breast {
 
 /// Displacement (mm, positive towards the detector) of the mid-plane in a step that closes the plates by `closing` mm
-/// from the state `here`. The plate that presses more waits, at most until it stands still: no plate retreats. What
-/// counts is the force of a plate, with that on its rounded edge counted three times, and on the paddle's side the weight
-/// along the beam that no hand carries, `weight_N` (N, positive towards the detector), which is the detector's.
+/// from the state `here`. The plate that presses more moves more slowly, or stands still, but never retreats. The
+/// plates are balanced when the detector presses with the force of the paddle and carries `weight_N`, the weight along
+/// the beam that no hand carries (N, positive towards the detector). The force on a rounded edge counts three times.
 double mid_plane_move(const PathPoint& here, double closing, double weight_N);
 
 }  // namespace breast

@@ -57,13 +57,7 @@ class Bracket {
   double thickness() const { return low_.thickness + part() * (high_.thickness - low_.thickness); }
   /// Interpolated states keep each solve short. The memory of a state beyond the target is not used,
   /// because friction would keep it.
-  Guess guess_at(double thickness) const {
-    const double w = (low_.thickness - thickness) / (low_.thickness - high_.thickness);
-    return {{low_.state.reference, (1 - w) * low_.state.x + w * high_.state.x,
-             (1 - w) * low_.state.p + w * high_.state.p},
-            low_.memory,
-            (1 - w) * low_.plates_moved + w * high_.plates_moved};
-  }
+  Guess guess_at(double thickness) const { return interpolate(low_, high_, thickness); }
   void shrink_to(Waypoint middle) {
     const double there = excess(middle);
     if (there < 0) {

@@ -34,7 +34,7 @@ Eigen::VectorXd pull_forwards(const HexMesh& mesh, const std::vector<Vec3>& x, c
   double total = 0;
   for (int node = 0; node < mesh.nodes(); ++node) {
     const auto i = std::size_t(node);
-    const double in_front = x[i].dot(plate.anterior) - plate.edge_start;
+    const double in_front = plate.in_front(x[i]);
     const double share = area[i] * std::clamp(in_front / pull_ramp_mm, 0.0, 1.0);
     force.segment<3>(3L * node) = share * plate.anterior;
     total += share;
@@ -55,7 +55,7 @@ PositioningStage positioning_stage(std::string name, const HexMesh& mesh,
   int at_edge = 0;
   for (int node = 0; node < mesh.nodes(); ++node) {
     const Vec3 before = start.segment<3>(3L * node), now = x.segment<3>(3L * node);
-    if (std::abs(before.dot(plate.anterior) - plate.edge_start) > at_edge_mm) continue;
+    if (std::abs(plate.in_front(before)) > at_edge_mm) continue;
     moved += (now - before).dot(plate.anterior);
     ++at_edge;
   }

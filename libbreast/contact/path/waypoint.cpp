@@ -40,7 +40,7 @@ PathPoint path_point(const ContactSolver& solver, const PlatePair& plates, const
   }
   for (const PressedPoint& pressed : step.pressed) {
     const Plate& plate = plates.plate(pressed.plate);
-    if (!(pressed.at.dot(plate.anterior) < plate.edge_start)) continue;
+    if (!(plate.in_front(pressed.at) < 0)) continue;
     const double along = pressed.force.dot(plate.normal()) / micronewton_per_newton;
     (pressed.plate == 0 ? point.paddle_edge_N : point.detector_edge_N) += along;
   }
@@ -50,6 +50,14 @@ PathPoint path_point(const ContactSolver& solver, const PlatePair& plates, const
         point.paddle_N * micronewton_per_newton / paddle_area / pascal_per_kilopascal;
   }
   return point;
+}
+
+Guess interpolate(const Waypoint& before, const Waypoint& beyond, double thickness) {
+  const double w = (before.thickness - thickness) / (before.thickness - beyond.thickness);
+  return {{before.state.reference, (1 - w) * before.state.x + w * beyond.state.x,
+           (1 - w) * before.state.p + w * beyond.state.p},
+          before.memory,
+          (1 - w) * before.plates_moved + w * beyond.plates_moved};
 }
 
 Guess extrapolate(const Waypoint& here, const Waypoint* before, double thickness) {

@@ -37,6 +37,10 @@ struct Guess {
   double plates_moved = 0;  ///< PlatePair::moved there
 };
 
+/// Between two states of a path at a thickness (mm), linearly in positions, pressures and the place of the plates;
+/// friction is that of `before`.
+Guess interpolate(const Waypoint& before, const Waypoint& beyond, double thickness);
+
 /// Extrapolates positions, pressures, and the friction bounds of the nodes that stay on their plate
 /// linearly from `before` and `here` to a thickness (mm). Returns `here` itself if `before` is null.
 Guess extrapolate(const Waypoint& here, const Waypoint* before, double thickness);

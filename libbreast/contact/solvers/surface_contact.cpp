@@ -228,10 +228,11 @@ bool SurfaceContact::equilibrate(State& state, double tolerance, double depth, C
 /// An equilibrium with the plates as stiff as they were at their last position; where there is none within
 /// reach, because the faces of the first guess lie too deep in them, with soft plates.
 bool SurfaceContact::begin(State& state, double tolerance, double allowed, ContactStep& step) {
+  if (fail_fast_ || !(memory_.penalty > options_.stiffness))
+    return equilibrate(state, tolerance, allowed, step);
   const State given = state;
   const ContactMemory memory = memory_;
   if (equilibrate(state, tolerance, allowed, step)) return true;
-  if (fail_fast_ || !(memory.penalty > options_.stiffness)) return false;
   state = given;
   memory_ = memory;
   memory_.penalty = options_.stiffness;
