@@ -15,6 +15,8 @@ $(call said,$(shell $(BIN)/cases check $(PIPELINES) $(if $(planning),0,$$PPID) $
 content = $(foreach f,$(wildcard $(filter-out $(RUNS)/%,$1)),$(shell [ ! -f $f ] || sha256sum < $f | cut -c 1-12))
 content_MATERIALS := $(call content,$(call set_of,$(MATERIALS)))
 content_TUMOUR := $(call content,$(TUMOUR))
+content_FAT := $(call content,$(FAT))
+content_ALSO := $(call content,$(ALSO))
 content_CHEST_WALL := $(call content,$(CHEST_WALL))
 content_LANDMARKS := $(call content,$(subst $(comma), ,$(LANDMARKS)))
 content_MAMMOGRAMS := $(call content,$(subst $(comma), ,$(MAMMOGRAMS)))
@@ -81,8 +83,9 @@ its_content = $(content_MATERIALS)
 
 # The options of the stages, and what is remembered of them: program, options, contents of files that users edit.
 its_model = $(its_mechanics) $(addprefix --wall ,$(its_wall)) $(addprefix --cut ,$(its_cut))
-labels_options = --side $(SIDE) $(addprefix --series ,$(SERIES)) $(addprefix --chest-wall ,$(CHEST_WALL)) $(its_segment)
-labels_settings = $(SEGMENT) $(call named,$(MR)) $(labels_options) $(content_CHEST_WALL)
+labels_options = --side $(SIDE) $(addprefix --series ,$(SERIES)) $(addprefix --fat ,$(FAT)) $(addprefix --also ,$(ALSO)) \
+  $(addprefix --chest-wall ,$(CHEST_WALL)) $(its_segment)
+labels_settings = $(SEGMENT) $(call named,$(MR)) $(labels_options) $(content_FAT) $(content_ALSO) $(content_CHEST_WALL)
 geometry_options = $(its_fit)
 geometry_settings = $(FIT_HERMITE) $(geometry_options)
 mesh_options = $(its_hexmesh) $(if $(findstring --tumour,$(its_hexmesh)),,--tumour $(TUMOUR))

@@ -13,6 +13,7 @@ MR path case - -
 MATERIALS path case set -
 LANDMARKS path case - -
 CHEST_WALL path case - -
+FAT path case - -
 SUPINE path case - -
 MAMMOGRAMS path case - -
 SIDE name case left|right -
@@ -134,6 +135,7 @@ class Settings(InFolder):
 
     def test_files_and_programs_that_are_not_there_are_refused_by_name(self):
         self.assertIn("CHEST_WALL: 'none.vtp' does not exist", self.refusal(CHEST_WALL="none.vtp"))
+        self.assertIn("FAT: 'none.nrrd' does not exist", self.refusal(FAT="none.nrrd"))
         self.assertIn("LANDMARKS: 'b.tsv' does not exist", self.refusal(LANDMARKS=f"{self.folder}/a.tsv,b.tsv"))
         self.assertIn("MAMMOGRAMS: 'b.dcm' does not exist", self.refusal(MAMMOGRAMS=f"{self.folder}/a.tsv,b.dcm"))
         self.assertIn(f"MAMMOGRAMS: '{self.folder}/a.tsv' is not CC.dcm,MLO.dcm", self.refusal(MAMMOGRAMS=f"{self.folder}/a.tsv"))

@@ -90,13 +90,21 @@ echo ribs > "$work/wall.vtp"
 touch -d 2001-01-01 "$work/wall.vtp"
 made CHEST_WALL="$work/wall.vtp"
 grep -q '^segment' "$work/err" || fail "a chest wall of an older date is another"
+for setting in FAT ALSO; do
+  echo one > "$work/second.nrrd"
+  made $setting="$work/second.nrrd"
+  echo other > "$work/second.nrrd"
+  touch -d 2001-01-01 "$work/second.nrrd"
+  made $setting="$work/second.nrrd"
+  grep -q '^segment' "$work/err" || fail "a second scan ($setting) of an older date is another"
+done
 printf 'PRESET = small\nREDUCTION = 40\n' > "$work/a.case"
 made CASE_FILE="$work/a.case"
 printf 'PRESET = small\nREDUCTION = 41\n' > "$work/a.case"
 touch -d 2001-01-01 "$work/a.case"
 made CASE_FILE="$work/a.case"
 grep -q 'reduction 41' "$run/cc.vtkhdf" || fail "a case file of an older date is another"
-pass "materials, tumour, chest wall and case file are known by content"
+pass "materials, tumour, second scans, chest wall and case file are known by content"
 
 # Without a tumour nothing of a tumour is left.
 made TUMOUR=auto

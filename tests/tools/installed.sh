@@ -109,7 +109,8 @@ planned "runs/scan-right/labels.vtkhdf" breast run scan.nrrd --dry-run
 printf 'x_mm\ty_mm\tz_mm\n-60\t-40\t12\n' > scan-tumour.tsv
 planned "--tumour scan-tumour.tsv" breast run scan.nrrd --side right --dry-run
 rm scan-tumour.tsv
-touch "a wall.nrrd"
+touch "a wall.nrrd" "fat image.nrrd"
+planned "fat_image.nrrd" breast run scan.nrrd --side left "FAT=fat image.nrrd" --dry-run
 planned "a_wall.nrrd" breast run scan.nrrd --side left "CHEST_WALL=a wall.nrrd" --dry-run
 printf 'MR = scan.nrrd\n' > "series 1/one.case"
 said "runs/cohort-series_1" breast cohort "series 1" --dry-run

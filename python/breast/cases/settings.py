@@ -23,7 +23,7 @@ from .settings_table import Setting, check_characters, check_choice, read_settin
 # A setting that is empty because a script's variable was must not get the results of the phantom, or the folder of all runs.
 _NEVER_EMPTY = {"MR": "name the scan, or leave MR out for the phantom PRESET", "CASE_FILE": "name the case file, or leave CASE_FILE out",
                 "CASE": "name the folder of the run, or leave CASE out", "RUNS": "name the folder of all runs, or leave RUNS out"}
-_FILES = ("CHEST_WALL", "LANDMARKS", "SUPINE", "LABELS_TRUTH", "MAMMOGRAMS")  # LANDMARKS may name two, MAMMOGRAMS names two
+_FILES = ("FAT", "ALSO", "CHEST_WALL", "LANDMARKS", "SUPINE", "LABELS_TRUTH", "MAMMOGRAMS")  # LANDMARKS may name two, MAMMOGRAMS names two
 
 
 def check_given(pipelines: Path, command_line: Mapping[str, str], environment: Mapping[str, str]) -> None:

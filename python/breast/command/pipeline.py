@@ -16,8 +16,8 @@ from .make_name import folder_for_make, name_for_make, plain_for_make
 from .request import PipelineRequest, parse_request
 
 # Settings that may name a file or folder of the caller's.
-_PATH_SETTINGS = ("CHEST_WALL", "MATERIALS", "TUMOUR", "CASE_FILE", "STUDY", "SEGMENT", "FIT_HERMITE", "HEXMESH", "BACKWARD", "FORWARD",
-                  "COMPRESS", "PROJECT", "CC2MLO")
+_PATH_SETTINGS = ("FAT", "ALSO", "CHEST_WALL", "SUPINE", "LABELS_TRUTH", "MATERIALS", "TUMOUR", "CASE_FILE", "STUDY", "SEGMENT", "FIT_HERMITE",
+                  "HEXMESH", "BACKWARD", "FORWARD", "COMPRESS", "PROJECT", "CC2MLO")
 
 
 def settings_for_make(r: PipelineRequest, runs: str) -> list[str]:

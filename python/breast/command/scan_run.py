@@ -45,8 +45,8 @@ def _requests(installation: Installation, r: PipelineRequest, assumed: list[str]
     """The request for each side, with the settings that a DICOM folder suggests; adds what was assumed."""
     given = r.side or r.settings.get("SIDE", "")
     sides = (given,) if given else SIDES
-    options = "SEGMENT_OPTIONS" in r.settings or "SERIES" in r.settings or "CASE_FILE" in r.settings
-    series = series_of(installation, r.scan) if os.path.isdir(r.scan) and not options else None
+    chosen = any(name in r.settings for name in ("SEGMENT_OPTIONS", "SERIES", "FAT", "ALSO", "CASE_FILE"))
+    series = series_of(installation, r.scan) if os.path.isdir(r.scan) and not chosen else None
     if series and not given:
         if not series.sides:
             raise BreastError(f"'{r.scan}': no series shows a breast; `breast scan '{r.scan}' x.nrrd --list` says what is there")
@@ -62,8 +62,8 @@ def _requests(installation: Installation, r: PipelineRequest, assumed: list[str]
             assumed.append(f"{side}: {series.taken[side]} (another: SERIES=N, as numbered by `breast scan '{r.scan}' x.nrrd --list`)")
         if series and side in series.fat:
             folder = name_for_make(r.scan, os.path.join(folder_for_make(r.runs, "--runs"), ".names"))
-            settings["SEGMENT_OPTIONS"] = f"--fat {folder} --fat-series {series.fat[side]}"
-            assumed.append(f"{side}: series {series.fat[side]} is the fat image of that water image (another: SEGMENT_OPTIONS='--fat FILE')")
+            settings.update(FAT=folder, SEGMENT_OPTIONS=f"--fat-series {series.fat[side]}")
+            assumed.append(f"{side}: series {series.fat[side]} is the fat image of that water image (another: FAT=FILE)")
         requests[side] = replace(r, side=side, settings=settings)
     return requests
 
