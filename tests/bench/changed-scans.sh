@@ -12,7 +12,7 @@ for case in "$cohort"/*.case; do
   name=$(basename "$case" .case)
   mr=$(value MR) side=$(value SIDE) truth=$(value LABELS_TRUTH)
   "$program" | while IFS= read -r change; do
-    row=$name--$(printf %s "$change" | sed 's/ %//; s/ /-/g')
+    row=$name--$(printf %s "$change" | sed 's/ %/-percent/; s/ /-/g')
     scan=$out/scans/$row.nrrd its_side=$side its_truth=$truth
     if [ "$change" = mirrored ]; then
       case $side in left) its_side=right ;; *) its_side=left ;; esac

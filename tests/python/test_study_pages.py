@@ -234,7 +234,7 @@ class Cohort(InFolder):
             self.write(f"{name}/labels-truth.tsv", f"quantity\tvalue\nwall_on_breast_mean_mm\t{wall}\n"
                        f"fibroglandular_in_breast_dice\t{dice}\n")
 
-        names = ("a--unchanged", "a--mirrored", "a--30-mm-less-above", "a--voxels-x2")
+        names = ("a--unchanged", "a--mirrored", "a--30-mm-less-above", "a--noise-of-15-percent")
         self.write(".cases", "".join(f"{name}\tx\tscan\n" for name in names))
         case(names[0], "left", [80, -40, 0], 500, [30, 40, 0], 0, 1)
         case(names[1], "right", [-80, -40, 1], 505, [-30, 40, 0], 0.25, 0.98)
@@ -246,7 +246,7 @@ class Cohort(InFolder):
             "a unchanged supine 0.0 500 0.0 0.0 0.00 50.0 0.0 0.0 0 none -",
             "a mirrored supine 1.0 505 1.0 1.0 0.25 50.0 0.0 0.0 0 none -",
             "a 30 mm less above supine 4.0 480 -4.0 -4.0 1.60 54.1 8.2 5.0 0 nipple_mm, volume_percent, wall_mm, supine_percent -",
-            "a voxels x2 - - - - - - - - - - nipple_mm, volume_percent, wall_mm, supine_percent no chest wall"])
+            "a noise of 15 % - - - - - - - - - - nipple_mm, volume_percent, wall_mm, supine_percent no chest wall"])
         flags = flag_table(self.folder, cases)
         self.assertEqual([" ".join(row) for row in flag_correlations(flags).rows], ["wall 3 1.00", "gland 3 -", "extent 2 1.00"])
 

@@ -40,7 +40,7 @@ def same_scan_table(runs: Path, cases: list[Case]) -> Table:
         reached = last_stage(runs / case.name)
         missed = [bound.name for bound, value in zip(_MOVED, values) if bound.missed_by(value)]
         table.rows.append([
-            of, change.replace("-", " "), reached, fixed(apart, 1), fixed(run.volume, 0), fixed(values[1], 1),
+            of, change.replace("-percent", " %").replace("-", " "), reached, fixed(apart, 1), fixed(run.volume, 0), fixed(values[1], 1),
             fixed(_percent(run.labels, base.labels), 1), fixed(run.wall, 2), fixed(_length(run.displacement), 1),
             fixed(values[3], 1), fixed(supine_apart, 1), fixed(run.cut, 0),
             "none" if change == UNCHANGED or not missed else ", ".join(missed), or_dash(case.reason)])
