@@ -281,6 +281,17 @@ class WhatIsSaid(unittest.TestCase):
         self.assertEqual(remarks[1].said, ["labels: quality of wall 0.4 is low", "labels: quality of tissue 0.3 is low"])
         self.assertEqual(remarks[-1].words, "a <b>new</b> warning", "a warning without a row is shown as it is")
 
+    def test_views_that_show_more_and_less_of_the_breast_are_said_to(self):
+        run = small_run.scratch("unequal")
+        for view, mm in (("cc", 58), ("mlo", 84)):
+            (run / f"{view}.json").write_text(json.dumps({"coverage": {"nipple_in_front_mm": mm}}))
+        self.assertIn("CC shows 58 mm and MLO 84 mm", remarks_of(run)[0].words)
+        self.assertEqual([fact.value for fact in facts.fact_of_views(run)], ["CC 58 mm, MLO 84 mm"])
+        (run / "mlo.json").write_text(json.dumps({"coverage": {"nipple_in_front_mm": 67}}))
+        self.assertEqual(remarks_of(run), [])
+        (run / "mlo.json").write_text(json.dumps({"accepted": False, "coverage": {"nipple_in_front_mm": 84}}))
+        self.assertEqual((remarks_of(run), facts.fact_of_views(run)), ([], []), "there is no such view")
+
     def test_the_patients_own_mammograms_are_registered_and_drawn_on(self):
         """The images of the simulation itself as the patient's: what is drawn in them lies where it does in the simulated views."""
         run = small_run.scratch("patient")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from ..labels import Labels
 from ..mammogram import Mammogram
 from ..state import TISSUES, State
 from ..study.stage_report import StageReport
+from ..study.views import nipple_lines
 from .patient import PatientImage
 
 _BEHIND_NIPPLE_MM = 10  # from the line straight back from the nipple
@@ -140,3 +142,9 @@ def facts_of_breast(labels_report: StageReport, compressions: list[StageReport])
             facts.append(Fact(f"plates_{view}", f"{view} compression", f"{thickness:.0f} mm thick, {force:.0f} N{tilt}",
                               "of the simulation"))
     return facts
+
+
+def fact_of_views(run: Path) -> list[Fact]:
+    """How much of the breast both views show, if both are compressions."""
+    lines = nipple_lines(run)
+    return [Fact("nipple_lines", "Nipple to image edge", f"CC {lines[0]:.0f} mm, MLO {lines[1]:.0f} mm", "of the simulation")] if lines else []

@@ -9,6 +9,7 @@ from ..cases.compression import VIEWS
 from ..study.advice import CHAIN_STAGES, extended_pattern
 from ..study.stage_report import StageReport
 from ..study.table import one_line, read_table
+from ..study.views import NIPPLE_LINES_DIFFER_MM, nipple_lines
 
 _WORDS = Path(__file__).with_name("words.tsv")
 _UNKNOWN = 2  # the weight of a warning without a row
@@ -25,13 +26,17 @@ class Remark:
 
 def remarks_of(run: Path) -> list[Remark]:
     """Every warning of the stages of a run in the words of words.tsv, worst first: one remark for all warnings of a row, and a warning
-    without a row as it is."""
+    without a row as it is; and one for views of which no clinic would accept that they show the same part of the breast."""
     table = [(extended_pattern(row["pattern"], str(_WORDS)), int(row["weight"]), row["words"]) for row in read_table(_WORDS)]
     remarks: dict[str, Remark] = {}
     for stage in (*CHAIN_STAGES, "patient"):
         for text in map(one_line, StageReport.read(run / f"{stage}.json").texts("warnings")):
             weight, said = next(((weight, said) for pattern, weight, said in table if pattern.search(text)), (_UNKNOWN, text))
             remarks.setdefault(said, Remark(weight, said)).said.append(f"{stage}: {text}")
+    cc, mlo = nipple_lines(run) or (0, 0)
+    if abs(cc - mlo) > NIPPLE_LINES_DIFFER_MM:
+        said = f"From the nipple, CC shows {cc:.0f} mm and MLO {mlo:.0f} mm of the breast; in real pairs they differ by less than 10 mm."
+        remarks[said] = Remark(2, said)
     return sorted(remarks.values(), key=lambda remark: remark.weight)
 
 

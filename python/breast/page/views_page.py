@@ -133,13 +133,13 @@ def views_page(run: Path, views: Views) -> str:
 
 def _tables(run: Path, views: Views) -> list[tuple[str, list[Fact]]]:
     """What is said in numbers: captions and rows."""
-    from .facts import facts_of_breast, facts_of_patient, facts_of_tumour
+    from .facts import fact_of_views, facts_of_breast, facts_of_patient, facts_of_tumour
 
     grid = views.scan.grid if views.scan is not None else None
     tumour = facts_of_tumour(views.body, views.pairs, views.labels, grid) if views.origin != "none" else []
     compressions = [StageReport.read(state.file.with_suffix(".json")) for _, state in views.pairs]
     return [("The tumour" if views.origin == "given" else "The artificial tumour", tumour),
-            ("The breast", facts_of_breast(StageReport.read(run / "labels.json"), compressions)),
+            ("The breast", [*facts_of_breast(StageReport.read(run / "labels.json"), compressions), *fact_of_views(run)]),
             ("The patient's mammograms", facts_of_patient(views.patients))]
 
 

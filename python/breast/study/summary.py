@@ -11,6 +11,7 @@ from .findings import calibration_note
 from .kinds import Request, kind
 from .stage_report import StageReport
 from .table import fixed
+from .views import NIPPLE_LINES_DIFFER_MM, nipple_lines
 
 
 def tumour_origin(mesh: StageReport) -> str:
@@ -94,18 +95,17 @@ def _truth_text(run: Path, phantom: Path | None) -> str:
 
 
 def _compression_text(run: Path) -> str:
-    text, lines = "\nCompression\n", {}
+    text = "\nCompression\n"
     for name in ("CC", "MLO"):
         report = StageReport.read(run / f"{name.lower()}.json")
         values = [fixed(report.number(key), 1) for key in
                   ("thickness_mm", "reduction_percent", "force_N", "detector_force_N", "pressure_kPa")]
         text += "  {:<4}thickness {} mm, reduction {} %, paddle {} N, detector {} N, mean pressure {} kPa, status {}\n".format(
             name, *values, report.text("status"))
-        lines[name] = report.first("nipple_in_front_mm")
-    cc, mlo = lines["CC"], lines["MLO"]
-    if cc is not None and mlo is not None:
-        text += (f"  nipple line: CC {cc:.0f} mm, MLO {mlo:.0f} mm to the image edge; they differ by {abs(cc - mlo):.0f} mm "
-                 "(clinics accept 10)\n")
+    lines = nipple_lines(run)
+    if lines:
+        text += (f"  nipple line: CC {lines[0]:.0f} mm, MLO {lines[1]:.0f} mm to the image edge; they differ by "
+                 f"{abs(lines[0] - lines[1]):.0f} mm (clinics accept {NIPPLE_LINES_DIFFER_MM})\n")
     return text
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from ..cases.compression import VIEWS
 from ..errors import BreastError
 from .bounds import ANY, Bound
 from .kinds import Request, kind
@@ -21,6 +22,17 @@ _VOLUME = {"CC": Bound("volume_percent", "coverage/volume_percent", 0, 55, ANY),
 _TURN = Bound("turn_deg", "turn_deg", 0, -15, 15)
 _NIPPLE, _ROUNDING = "coverage/nipple_in_front_mm", 0.005
 """A force that ends a path is met to half a per cent."""
+
+
+NIPPLE_LINES_DIFFER_MM = 10
+"""By so much the nipple lines of a pair of views may differ that clinics accept (docs/validation/views.md)."""
+
+
+def nipple_lines(run: Path) -> tuple[float, float] | None:
+    """mm from the nipple to the posterior edge of the image in CC and in MLO; None unless both views are compressions."""
+    reports = [StageReport.read(run / f"{view}.json") for view in VIEWS]
+    cc, mlo = (None if report.find("accepted") is False else report.number(_NIPPLE) for report in reports)
+    return None if cc is None or mlo is None else (cc, mlo)
 
 
 def _outside(bound: Bound, report: StageReport) -> bool:

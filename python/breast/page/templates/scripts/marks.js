@@ -41,7 +41,8 @@ function drawMargin(view) {
   pen.font = 'bold 15px sans-serif';
   place((left ? 'L ' : 'R ') + image.view, free, 20, left ? 'right' : 'left');
   pen.font = '12px sans-serif';
-  place(cc ? 'lateral' : 'superior', w / 2, 14, 'center');
+  // On a telephone the word gives way to the name of the view.
+  place(cc ? 'lateral' : 'superior', w / 2 - (w < 260 ? (left ? 1 : -1) * 0.12 * w : 0), 14, 'center');
   place(cc ? 'medial' : 'inferior', w / 2, h - 6, 'center');
   if (w > 320) {
     place('W ' + Math.round(100 * view.window.width) + ' L ' + Math.round(100 * view.window.level) + '  \u00d7' + view.zoom.toFixed(1),
