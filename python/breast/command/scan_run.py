@@ -49,7 +49,7 @@ def _requests(installation: Installation, r: PipelineRequest, assumed: list[str]
     series = series_of(installation, r.scan) if os.path.isdir(r.scan) and not chosen else None
     if series and not given:
         if not series.sides:
-            raise BreastError(f"'{r.scan}': no series shows a breast; `breast scan '{r.scan}' x.nrrd --list` says what is there")
+            raise BreastError(f"'{r.scan}': no series shows a breast; `breast scan '{r.scan}' --list` says what is there")
         sides = series.sides
     if not given and sides == SIDES:
         assumed.append("both breasts, as far as the scan shows them (one: --side left or --side right)")
@@ -59,7 +59,7 @@ def _requests(installation: Installation, r: PipelineRequest, assumed: list[str]
     for side in sides:
         settings = dict(r.settings)
         if series and side in series.taken:
-            assumed.append(f"{side}: {series.taken[side]} (another: SERIES=N, as numbered by `breast scan '{r.scan}' x.nrrd --list`)")
+            assumed.append(f"{side}: {series.taken[side]} (another: SERIES=N, as numbered by `breast scan '{r.scan}' --list`)")
         if series and side in series.fat:
             folder = name_for_make(r.scan, os.path.join(folder_for_make(r.runs, "--runs"), ".names"))
             settings.update(FAT=folder, SEGMENT_OPTIONS=f"--fat-series {series.fat[side]}")
