@@ -7,8 +7,12 @@ find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(HDF5 REQUIRED COMPONENTS C)
 if(BREAST_TESTS)
-  find_package(GTest REQUIRED)
-  include(GoogleTest)
+  find_package(GTest QUIET)
+  if(GTest_FOUND)
+    include(GoogleTest)
+  else()
+    message(STATUS "The tests are left out: GoogleTest is not installed")
+  endif()
 endif()
 
 find_path(CHOLMOD_INCLUDE cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
@@ -30,11 +34,18 @@ else()
 endif()
 
 find_package(VTK 9.1 QUIET COMPONENTS CommonCore CommonDataModel IOXML IOImage IOHDF)
-find_package(ITK 5.2 QUIET COMPONENTS ITKCommon ITKIOImageBase ITKIONRRD ITKIOMeta ITKIOGDCM
-  ITKImageGrid ITKSmoothing ITKThresholding ITKRegionGrowing ITKBinaryMathematicalMorphology
-  ITKMathematicalMorphology ITKConnectedComponents ITKLabelMap ITKDistanceMap ITKImageFeature ITKImageFilterBase
-  ITKImageStatistics ITKBiasCorrection ITKLabelVoting)
-find_package(OpenCV QUIET COMPONENTS core imgproc imgcodecs)
+find_package(ITK 5.2 QUIET COMPONENTS ITKCommon ITKIOImageBase ITKIONRRD ITKIOMeta ITKConnectedComponents ITKDisplacementField
+  ITKDistanceMap ITKRegionGrowing)
+# OpenCV by its parts: its own CMake files ask for all fifty of them.
+find_path(OPENCV_INCLUDE opencv2/imgproc.hpp PATH_SUFFIXES opencv4)
+find_library(OPENCV_CORE opencv_core)
+find_library(OPENCV_IMGPROC opencv_imgproc)
+find_library(OPENCV_IMGCODECS opencv_imgcodecs)
+if(OPENCV_INCLUDE AND OPENCV_CORE AND OPENCV_IMGPROC AND OPENCV_IMGCODECS)
+  add_library(breast_opencv INTERFACE)
+  target_include_directories(breast_opencv SYSTEM INTERFACE ${OPENCV_INCLUDE})
+  target_link_libraries(breast_opencv INTERFACE ${OPENCV_CORE} ${OPENCV_IMGPROC} ${OPENCV_IMGCODECS})
+endif()
 find_package(CGAL QUIET)
 find_package(GDCM QUIET)
 find_library(XRL_LIBRARY xrl)

@@ -27,9 +27,8 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/debian/postin
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # Recipes of make; the threaded OpenBLAS (the reference BLAS is 5-8 times slower); figures and pages are made by Python, the surfaces
 # of figures on a private display.
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "make, libopenblas0-pthread, xvfb, xauth, libgl1-mesa-dri, python3, python3-h5py, python3-jinja2, python3-matplotlib, python3-vtk9")
-# Small pictures of a cohort.
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "netpbm, bash-completion")
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "make, libopenblas0-pthread, xvfb, xauth, libgl1-mesa-dri, python3, python3-h5py, python3-jinja2, python3-matplotlib, python3-pil, python3-vtk9")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS bash-completion)
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "slurm-client, chromium, python3-pandas, paraview")
 
 # What Debian asks for beside the manual pages; no upload, so no bug of Debian's that it would close.

@@ -30,21 +30,28 @@ PRESET_BUILD ?= release
 presets := release debug asan readers package bench ci
 $(if $(filter-out $(presets),$(value PRESET_BUILD)),$(error PRESET_BUILD: '$(value PRESET_BUILD)' is none of $(presets)))
 
-$(ROOT)build/.packages: $(PIPELINES)/packages.txt $(PIPELINES)/setup.sh
+# The packages for running (.packages), and those that only the tests or the Debian package need besides.
+packages := $(addprefix $(ROOT)build/,.packages .packages-check .packages-package)
+$(packages): $(PIPELINES)/packages.txt $(PIPELINES)/setup.sh
 	@mkdir -p $(@D)
-	$(PIPELINES)/setup.sh
+	$(PIPELINES)/setup.sh $(patsubst .packages-%,%,$(@F:.packages=run))
 	@touch $@
-# $(call build,TARGET)
+# $(call build,TARGETS): never two at once in a folder.
 define build
 (cd $(or $(ROOT),.) && cmake --preset $(PRESET_BUILD) > build/configure.log 2>&1 || { cat build/configure.log >&2; exit 1; })
-cmake --build $(BUILD) --target $1 -j $$(nproc)
+flock $(BUILD) cmake --build $(BUILD) --target $1 -j $$(nproc)
 endef
+# Programs that the chain does without and that take the compiler long: each is built when a rule first asks for it, and from then on
+# with all others.
+LATER := calibrate calibrate-softness export-deck export-slicer identify
+$(LATER:%=$(BIN)/%):
+	flock $(BUILD) cmake --build $(BUILD) --target $(@F) -j $$(nproc)
 $(ROOT)build/cases.mk: $(ROOT)build/.packages FORCE
 	$(call build,cases)
 	@echo "# Written when the program that checks the settings was first built." > $@
 .PHONY: setup build
-setup: $(ROOT)build/.packages
-build: ;
+setup: $(packages)
+build: $(LATER:%=$(BIN)/%)
 -include $(wildcard $(ROOT)tests/package.mk)
 
 ifneq ($(planning),)
@@ -53,7 +60,7 @@ ifneq ($(planning),)
 $(if $(ready),,$(wanted)): $(ROOT)build/cases.mk
 else
 $(ROOT)build/built-$(PRESET_BUILD).mk: $(ROOT)build/.packages $(SOURCES)
-	$(call build,programs)
+	$(call build,chain_programs $(filter $(LATER),$(notdir $(wildcard $(BIN)/*))))
 	@echo "# Written when the programs in $(BUILD) were last built." > $@
 ifneq ($(if $(ready),,$(wanted)),)
 include $(ROOT)build/cases.mk

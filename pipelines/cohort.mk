@@ -31,6 +31,7 @@ cohort-table: $(CASE_LIST)
 
 ifeq ($(CLUSTER),slurm)
 # The make of a task uses the programs as they are: no task builds anything.
+cohort cohort-script: | $(IDENTIFY)
 task_make = make -f $(PIPELINE) -o $(ROOT)build/built-$(PRESET_BUILD).mk -o $(ROOT)build/.packages
 task_settings = $(foreach v,$(filter-out COHORT RUNS CASE CASE_FILE CLUSTER% RESUME,$(given)),'$v=$(value $v)')
 slurm = $(CASES) $1 $(COHORT_RUNS) $(COHORT) --quiet --cost $(PIPELINES)/cohort-cost.tsv --elements $(ELEMENTS) \

@@ -1,17 +1,18 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs the Debian packages named in pipelines/packages.txt that are missing; where it may not
-# install, says which to install and stops.
+# setup.sh WHAT: installs the Debian packages that are missing of those that pipelines/packages.txt marks with run or WHAT; where it
+# may not install, says which to install and stops.
 set -euo pipefail
 export LC_ALL=C
 list=$(dirname "$0")/packages.txt
+what=$1
 missing=()
-while read -r package _; do
-  case "$package" in ''|'#'*) continue ;; esac
+while read -r package mark _; do
+  [ "$mark" = run ] || [ "$mark" = "$what" ] || continue
   dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
 done < "$list"
 if [ ${#missing[@]} -eq 0 ]; then
-  echo "set-up: all packages are installed" >&2
+  echo "set-up: all packages for $what are installed" >&2
   exit 0
 fi
 install=(apt-get install -y --no-install-recommends "${missing[@]}")

@@ -2,8 +2,10 @@
 # Targets of the source tree alone, which an installation has not: tests, extreme cases, what takes hours before a release, the
 # Debian package. Makefile.pipeline includes it.
 .PHONY: check page-check fuzz release-check faults fields python-pages full-disk whole-tools slurm clean-root stability stability-mechanics stability-contact
+# What the tests need besides: their packages, then the tests themselves, which are left out without them.
+check fuzz faults full-disk whole-tools stability-mechanics stability-contact: | $(ROOT)build/.packages-check
 check:
-	cmake --build $(BUILD) -j $$(nproc)
+	$(call build,all)
 	OPENBLAS_THREAD_TIMEOUT=4 ctest --test-dir $(BUILD) --output-on-failure --no-tests=error -j $$(nproc)
 	printf '%s\n' tests/tools/reproduce.sh tests/tools/pipeline.sh 'tests/fuzz/run.sh inputs=2000' \
 	  'tests/tools/docs-current.sh $(BIN)' | xargs -d '\n' -P $$(nproc) -I{} sh -c 'echo "{}:"; {} || { echo "FAILED: {}"; exit 1; }'
@@ -22,13 +24,13 @@ release-check: check faults fields python-pages full-disk whole-tools clean-root
 	tests/fuzz/run.sh $(FUZZ_MINUTES)
 
 faults:
-	cmake --build $(BUILD) -j $$(nproc) --target programs tetrahedra tools_faults tools_limits
+	$(call build,programs tetrahedra tools_faults tools_limits)
 	BREAST_FAULT_ALLOCATIONS=$(FAULT_ALLOCATIONS) OPENBLAS_THREAD_TIMEOUT=4 $(BUILD)/tests/tools_faults
 	BREAST_FAULT_ALLOCATIONS=$(FAULT_ALLOCATIONS) OPENBLAS_THREAD_TIMEOUT=4 $(BUILD)/tests/tools_limits
 
 # Every field of every file, damaged in four ways, for every tool that reads it.
 fields:
-	cmake --build $(BUILD) -j $$(nproc) --target programs
+	$(call build,programs)
 	tests/faults/fields.py $(BUILD)/bin whole
 
 # The examples of docs/python.md and of the tutorial on the run itself.
@@ -36,7 +38,7 @@ python-pages: $(CHAIN_FILES)
 	BREAST_RUN=$(RUN) tests/python/run_tests.py $(BUILD)/bin test_pages test_parts
 
 full-disk:
-	cmake --build $(BUILD) -j $$(nproc) --target programs tools_full_disk tools_killed_writer
+	$(call build,programs tools_full_disk tools_killed_writer)
 	$(BUILD)/tests/tools_full_disk
 	$(BUILD)/tests/tools_killed_writer
 
@@ -44,16 +46,16 @@ full-disk:
 readers := export-slicer probe evaluate laws export-deck pairs match-lookup segment hexmesh cc2mlo truth-table
 SANITIZED := build/readers
 whole-tools:
-	cmake --build $(BUILD) -j $$(nproc) --target programs fault_inputs
+	$(call build,programs fault_inputs)
 	cmake --preset readers > /dev/null
 	cmake --build $(SANITIZED) -j $$(nproc) --target $(readers)
 	rm -rf build/whole-tools
 	$(BUILD)/tests/fault_inputs build/whole-tools
 	tests/fuzz/whole-tools.py $(SANITIZED)/bin build/whole-tools $(FUZZ_INPUTS)
 
-# Needs root, slurm-wlm, munge and netpbm; without them it says so and fails.
+# Needs root, slurm-wlm and munge; without them it says so and fails.
 slurm:
-	cmake --build $(BUILD) -j $$(nproc) --target programs
+	$(call build,programs)
 	tests/tools/slurm.sh $(BUILD)
 
 # Installs the package in an empty Debian 12 and runs the demonstration there; needs root, network and debootstrap.
@@ -72,7 +74,7 @@ stability: $(STABILITY)/summary.tsv
 	@cat $<
 $(STABILITY)/mechanics.tsv: $(SOURCES) $(wildcard tests/extreme/table/*)
 	@mkdir -p $(@D)
-	cmake --build $(BUILD) --target print_extreme_mechanics -j $$(nproc)
+	$(call build,print_extreme_mechanics)
 	$(call table,$(BUILD)/tests/print_extreme_mechanics --limit $(STABILITY_LIMIT))
 $(STABILITY)/contact.tsv: $(COMPRESS) tests/fixtures/contact_cases.hpp tests/bench/stability_contact.cpp \
   $(wildcard $(RUN)/reference.vtkhdf)

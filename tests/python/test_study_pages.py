@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What runs say: reports that need not be there, warnings once with their advice, summaries, pages whose every text is escaped."""
+import base64
+import io
 import json
 import re
 import unittest
@@ -17,6 +19,7 @@ from study_files import InFolder, table_of
 
 try:
     import jinja2  # noqa: F401
+    from PIL import Image
     from breast.study.cohort_pages import CohortPages, cohort_page, contours_page
     from breast.study.html import page, table_of_text
     from breast.study.report import report_page
@@ -200,6 +203,15 @@ class Cohort(InFolder):
         self.write("good/page.html", "x")
         self.assertIn('<tr><td><a href="good/page.html">good</a><td', cohort_page(pages))
         self.assertNotIn(f"{self.folder.parent}/", made, "names no folder")
+
+        def pictured(width, height):
+            Image.new("L", (width, height), 90).save(self.folder / "good/contours.png")
+            found = re.search(r"data:image/jpeg;base64,([^\"' ]+)", contours_page(pages))
+            return Image.open(io.BytesIO(base64.b64decode(found[1]))).size if found else None
+        self.assertEqual(pictured(2000, 1474), (5 * 340, 280), "five of the slices of segment")
+        self.assertIsNone(pictured(300, 300), "another program's picture")
+        self.write("good/contours.png", "no picture")
+        self.assertIn("no contours", contours_page(pages))
 
     def test_sides_say_how_far_they_get_and_what_was_mended(self):
         self.write(".cases", "left\tx\tscan\nright\tx\tscan\n")

@@ -163,11 +163,31 @@ case_file "MRI = $work/scan.nrrd"
 for setting in "CASE_FILE=$work/bad.case" SIDES=right "MR=\$(shell touch $bait)"; do
   rm -f "$fresh/build/release/bin/cases" "$work/asked"
   ! (cd "$fresh" && PATH=$work/fake:$PATH make -f Makefile.pipeline "$setting" chain > "$work/out" 2> "$work/err") || fail "$setting is refused before the first build"
-  grep -q -- '--target cases' "$work/asked" && ! grep -q -- '--target programs' "$work/asked" || { cat "$work/asked"; fail "$setting: cases alone is built"; }
+  grep -q -- '--target cases' "$work/asked" && ! grep -q -- '--target chain_programs' "$work/asked" || { cat "$work/asked"; fail "$setting: cases alone is built"; }
   [ "$(grep -c '\*\*\*' "$work/err")" -eq 1 ] || { cat "$work/err"; fail "$setting is refused in one line"; }
 done
 [ ! -e "$bait" ] || fail "nothing is executed before cases has checked it"
 pass "before the first build, cases alone is built, and what it refuses builds nothing else"
+
+rm -f "$work/asked"
+(cd "$fresh" && PATH=$work/fake:$PATH make -f Makefile.pipeline -j2 build > "$work/out" 2> "$work/err") || { cat "$work/err"; fail "make build"; }
+[ "$(grep -c -- '--build' "$work/asked")" -eq 6 ] && grep -q -- '--target chain_programs -j' "$work/asked" && grep -q -- '--target identify' "$work/asked" ||
+  { cat "$work/asked"; fail "the programs of the chain are built together, and each of the five others when it is needed"; }
+touch "$fresh/build/release/bin/identify" "$fresh/CMakeLists.txt"
+(cd "$fresh" && PATH=$work/fake:$PATH make -f Makefile.pipeline build/built-release.mk > "$work/out" 2> "$work/err") || { cat "$work/err"; fail "a changed source"; }
+grep -q -- '--target chain_programs identify -j' "$work/asked" || { cat "$work/asked"; fail "what was built before is built again when a source has changed"; }
+printf '#!/bin/sh\nexit 1\n' > "$work/fake/dpkg-query"
+printf '#!/bin/sh\necho "$*" >> "%s/installed"\n' "$work" > "$work/fake/apt-get"
+printf '#!/bin/sh\necho 0\n' > "$work/fake/id"
+chmod +x "$work/fake"/*
+for what in run check package; do
+  PATH=$work/fake:$PATH pipelines/setup.sh $what 2> /dev/null
+  mv "$work/installed" "$work/$what"
+  grep -qw libvtk9-dev "$work/$what" || fail "setup.sh $what installs what all need"
+done
+! grep -qwE 'clang|libgtest-dev|libopencv-dev|dpkg-dev' "$work/run" && grep -qw libgtest-dev "$work/check" && grep -qw dpkg-dev "$work/package" ||
+  fail "each command installs what it needs and no more"
+pass "the first command installs and builds what the chain needs; the rest follows when it is asked for"
 
 for pair in "pat.001.nrrd pat.002.nrrd" "1.2.840.113619.2.5 1.2.840.113619.7.9" "x.nii.gz y.nii.gz"; do
   read -r first second <<< "$pair"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# slurm.sh BUILD [GOOD]: a cohort on a Slurm of its own (Debian: slurm-wlm, munge, netpbm), on loopback and without systemd. GOOD cases (6), one
+# slurm.sh BUILD [GOOD]: a cohort on a Slurm of its own (Debian: slurm-wlm, munge), on loopback and without systemd. GOOD cases (6), one
 # that is killed and one that fails run the installed chain, coarse, as processes of this machine and as job arrays of at most six tasks. One
 # of two nodes is lost in the middle and comes back, one task is cancelled; resumed, the table is the local one byte for byte.
 # The scan is segmented once and its pictures are copies: neither is the subject here.
@@ -8,8 +8,8 @@
 set -euo pipefail
 export LC_ALL=C
 unset MAKEFLAGS MFLAGS MAKEOVERRIDES MAKELEVEL  # of a make that runs the tests
-for program in slurmctld slurmd munged sbatch pnmtojpeg unshare; do
-  PATH=$PATH:/usr/sbin command -v $program > /dev/null || { echo "skipped: $program is not installed (Debian: slurm-wlm munge netpbm)"; exit 77; }
+for program in slurmctld slurmd munged sbatch unshare; do
+  PATH=$PATH:/usr/sbin command -v $program > /dev/null || { echo "skipped: $program is not installed (Debian: slurm-wlm munge)"; exit 77; }
 done
 [ "$(id -u)" -eq 0 ] || { echo "skipped: needs root"; exit 77; }
 PATH=$PATH:/usr/sbin
@@ -113,7 +113,7 @@ cat > render <<'RENDER'
 #!/bin/bash
 while [ "$1" != --all ]; do shift; done
 for name in ${4//,/ }; do
-  printf 'P2\n2 2\n255\n0 90 180 255\n' | pnmtopng > "$2/$name.png"
+  /usr/bin/python3 -c 'import sys; from PIL import Image; Image.new("L", (2, 2), 90).save(sys.argv[1])' "$2/$name.png"
 done
 RENDER
 chmod +x segment render

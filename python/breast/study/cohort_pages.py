@@ -2,12 +2,13 @@
 """HTML pages of a cohort: an overview of all cases, and the contours of their segmentations."""
 from __future__ import annotations
 
+import io
 import math
-import shutil
-import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+
+from PIL import Image
 
 from .files import exists
 from .html import data_uri, page, table_of_text
@@ -15,12 +16,9 @@ from .table import NO_VALUE, Table, fixed, general, number_of
 
 _QUANTITIES = ("volume_ml", "min_scaled_jacobian", "supine_nipple_mm", "supine_tumour_mm", "cc_thickness_mm", "cc_force_N",
                "mlo_thickness_mm", "mlo_force_N")
-_SMALL = 'pngtopnm "$1" | pamscale -xsize "$2" | pnmtojpeg -quality 70'
 # Three axial and two sagittal slices out of the sixteen that segment draws, four per row of 500 x 360 pixels with the breast in the
-# middle; pixel by pixel, because a contour is one pixel wide.
-_SLICES = """\
-cut() { pngtopnm "$1" | pamcut -left $((500 * $3 + 80)) -top $((360 * $2 + 40)) -width 340 -height 280; }
-pnmcat -lr <(cut "$1" 0 1) <(cut "$1" 0 3) <(cut "$1" 1 1) <(cut "$1" 2 1) <(cut "$1" 2 2) | pnmtojpeg -quality 70 -sample=1x1"""
+# middle, as (row, column).
+_SLICES = ((0, 1), (0, 3), (1, 1), (2, 1), (2, 2))
 
 
 @dataclass(frozen=True)
@@ -61,7 +59,7 @@ def contours_page(cohort: CohortPages) -> str:
     for row in sorted(cohort.cases, key=_rank):
         said = {"bad": f"failed: {row['reason']}", "look": row["look"], "": ""}[_kind(row)]
         cases.append({"name": row["case"], "kind": _kind(row), "said": said,
-                      "picture": _piped(_SLICES, cohort.runs / row["case"] / "contours.png")})
+                      "picture": _slices(cohort.runs / row["case"] / "contours.png")})
     return _page("contours", cohort, f"Segmentations of {cohort.runs.name}", cases=cases)
 
 
@@ -76,7 +74,7 @@ def _page(template: str, cohort: CohortPages, title: str, **context: Any) -> str
     ranks = list(map(_rank, cohort.cases))
     failed, looking = ranks.count(0), ranks.count(1)
     counted = f"{len(ranks)} cases: {len(ranks) - failed} done, {failed} failed, {looking} ask for a look."
-    return page(template, title=title, style="cohort.css", possible=_possible(), counted=counted, **context)
+    return page(template, title=title, style="cohort.css", counted=counted, **context)
 
 
 def _rank(row: dict[str, str]) -> int:
@@ -113,17 +111,34 @@ def _distribution(table: Table, column: str, women: Table) -> dict[str, Any] | N
             "dots": [fixed((value - low) * scale, 1) for value in values]}
 
 
-def _possible() -> bool:
-    return shutil.which("pnmtojpeg") is not None
-
-
 def _small(png: Path, width: int) -> str:
-    return _piped(_SMALL, png, str(width))
+    """A picture in that many pixels' width as a data URI; "" where there is none."""
+    picture = _read(png)
+    return _jpeg(picture.resize((width, round(picture.height * width / picture.width)))) if picture else ""
 
 
-def _piped(pipe: str, png: Path, width: str = "") -> str:
-    """A JPEG of netpbm's programs; "" without the picture or the programs, or if another program made the picture."""
-    if not _possible() or not exists(png):
+def _slices(png: Path) -> str:
+    """Some of the contours of segment side by side, pixel by pixel, because a contour is one pixel wide; "" where there are none."""
+    picture = _read(png)
+    if picture is None or picture.width < 4 * 500 or picture.height < 3 * 360:  # another program made the picture
         return ""
-    made = subprocess.run(["bash", "-o", "pipefail", "-c", pipe, "netpbm", png, width], capture_output=True, check=False)
-    return data_uri(made.stdout, "jpeg") if made.returncode == 0 else ""
+    width, height = 340, 280
+    strip = Image.new("RGB", (width * len(_SLICES), height))
+    for place, (row, column) in enumerate(_SLICES):
+        left, top = 500 * column + 80, 360 * row + 40
+        strip.paste(picture.crop((left, top, left + width, top + height)), (width * place, 0))
+    return _jpeg(strip, subsampling=0)
+
+
+def _read(png: Path) -> Image.Image | None:
+    try:
+        with Image.open(png) as picture:
+            return picture.convert("RGB")
+    except OSError:
+        return None
+
+
+def _jpeg(picture: Image.Image, **options: int) -> str:
+    written = io.BytesIO()
+    picture.save(written, "JPEG", quality=70, **options)
+    return data_uri(written.getvalue(), "jpeg")
