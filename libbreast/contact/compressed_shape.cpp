@@ -11,6 +11,7 @@
 #include "core/units.hpp"
 #include "mesh/gauss.hpp"
 #include "mesh/locate.hpp"
+#include "mesh/muscle_front.hpp"
 #include "mesh/shape.hpp"
 
 namespace breast {
@@ -103,6 +104,24 @@ double projected_cm2(const HexTopology& mesh, const std::vector<Vec3>& x, const 
     }
   }
   return 0.5 * both_sides / mm2_per_cm2;
+}
+
+std::optional<double> muscle_in_front(const HexTopology& mesh, const std::vector<Vec3>& x,
+                                      const Plate& plate, const Vec3& at) {
+  std::optional<double> most;
+  if (std::ranges::find(mesh.tissue, Tissue::muscle) == mesh.tissue.end()) return most;
+  const double row = at.dot(plate.lateral);
+  for (const Face& face : muscle_front(mesh)) {
+    const std::vector<int> nodes = face_nodes(mesh, face);
+    for (std::size_t c = 0; c < 4; ++c) {
+      const Vec3 &here = x[std::size_t(nodes[c])], &next = x[std::size_t(nodes[(c + 1) % 4])];
+      const double a = here.dot(plate.lateral) - row, b = next.dot(plate.lateral) - row;
+      if ((a < 0) == (b < 0)) continue;
+      const double in_front = plate.in_front(here + a / (a - b) * (next - here));
+      most = std::max(in_front, most.value_or(in_front));
+    }
+  }
+  return most;
 }
 
 SelfContact self_contact(const HexMesh& mesh, const std::vector<Vec3>& x) {

@@ -28,6 +28,12 @@ Coverage coverage(const HexTopology& mesh, const Eigen::VectorXd& x, const Plate
 /// leaves once.
 double projected_cm2(const HexTopology& mesh, const std::vector<Vec3>& x, const Plate& plate);
 
+/// How far the muscle reaches in front of the start of the plate's rounded edge, mm, in the row of the image through
+/// `at` (negative: it ends behind the edge), in the shape `x`. No value for a mesh without a layer of muscle, or whose
+/// muscle does not reach that row.
+std::optional<double> muscle_in_front(const HexTopology& mesh, const std::vector<Vec3>& x,
+                                      const Plate& plate, const Vec3& at);
+
 struct SelfContact {
   /// Area of the free boundary that has other parts of the body less than half a millimetre in
   /// front of it, or penetrating it, cm².

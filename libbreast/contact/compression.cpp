@@ -275,7 +275,7 @@ void Compression::refuse_without_grip() {
 
 /// Completed fraction of the path to the target.
 double Compression::load_reached() const {
-  return part_of_way(found_.path.points.back(), target_, found_.plates.initial_thickness);
+  return part_of_way(found_.path.points.back(), target_, found_.plates.closing_range);
 }
 
 /// Compares the result with clinical ranges, then adds comments on the path.

@@ -98,8 +98,10 @@ void check_options(const PlateOptions& options) {
 }
 
 /// Plate coordinates that do not depend on its level: width, edge start, far edge, mid-depth.
+/// `breast` is a where the breast proper begins, whose thickness is T0: at the edge, or, if that is the edge of the
+/// image, where plates would stand by default that do not reach the skin of the trunk.
 Plate place_in_plane(const HexTopology& mesh, const std::vector<Vec3>& x, const ViewPose& pose,
-                     const PlateOptions& options, double& wall_point) {
+                     const PlateOptions& options, double& wall_point, double& breast) {
   Plate plate = plate_facing(pose);
   plate.edge_radius = std::max(least_edge_radius, options.edge_radius);
   const std::vector<int> skin = nodes_of(mesh, mesh.skin_faces);
@@ -119,6 +121,8 @@ Plate place_in_plane(const HexTopology& mesh, const std::vector<Vec3>& x, const 
   const double automatic = std::min(most_standoff, standoff_part * (along.high - wall_point));
   plate.edge_start = options.edge_at.value_or(
       wall_point + options.image_edge.value_or(options.standoff.value_or(automatic)));
+  breast =
+      std::max(plate.edge_start, options.image_edge ? wall_point + automatic : plate.edge_start);
   const double depth = along.high - plate.edge_start;
   if (!(depth >= least_depth)) {
     throw input_error(
@@ -256,8 +260,8 @@ PlatePair paddle_and_detector(const Plate& plate) {
 PlatePair place_plates(const HexMesh& mesh, const std::vector<Vec3>& x, const ViewPose& pose,
                        const PlateOptions& options) {
   check_options(options);
-  double wall_point = 0;
-  const Plate plate = place_in_plane(mesh, x, pose, options, wall_point);
+  double wall_point = 0, breast_from = 0;
+  const Plate plate = place_in_plane(mesh, x, pose, options, wall_point, breast_from);
   PlatePair pair = paddle_and_detector(plate);
   pair.wall_point = wall_point;
   pair.angle_axis = pose.angle_axis;
@@ -269,14 +273,18 @@ PlatePair place_plates(const HexMesh& mesh, const std::vector<Vec3>& x, const Vi
   if (extent.empty() || !(extent.size() > 0)) {
     throw input_error("the plates' footprint contains no skin; try a smaller --standoff");
   }
-  pair.initial_thickness = extent.size();
-  pair.underside = extent.high;
+  Plate over_breast = plate;
+  over_breast.edge_start = breast_from;
+  const Extent breast = footprint_extent(mesh, x, over_breast);
+  pair.closing_range = extent.size();
+  pair.initial_thickness = breast.size();
+  pair.underside = breast.high;
   // A detector that does not lift the breast completely stands under the hanging breast.
   const Extent unloaded = footprint_extent(mesh, mesh.reference, plate);
   const bool lifts = std::isinf(options.detector_rise) && !unloaded.empty();
   const double middle = options.middle_at.value_or((lifts ? unloaded : extent).middle());
-  pair.paddle_start = middle - 0.5 * extent.size();
-  pair.detector_start = middle + 0.5 * extent.size();
+  pair.paddle_start = middle - 0.5 * pair.initial_thickness;
+  pair.detector_start = middle + 0.5 * pair.initial_thickness;
   pair.close_to(pair.initial_thickness);
 
   pair.touching_thickness = touching_thickness(mesh, x, pair);

@@ -105,7 +105,10 @@ struct PlateOptions {
 /// mid-depth.
 struct PlatePair {
   Plate paddle, detector;
-  double initial_thickness = 0;   ///< T0: extent along n within the footprint of the body
+  /// T0: extent of the breast along n within the footprint; between plates that are placed by the edge of the image,
+  /// without the skin of the trunk that lies in front of it.
+  double initial_thickness = 0;
+  double closing_range = 0;       ///< extent along n of all skin in front of the edge, mm
   double touching_thickness = 0;  ///< T where the first skin node touches; ≥ T0 beside a wide base
   double underside = 0;           ///< h of the lower end of the body as it hangs over the detector
   double wall_point = 0;          ///< a of the most anterior pectoral or cut point

@@ -81,7 +81,11 @@ void write_report(const CompressionResult& summary, const HexMesh& mesh,
   }
   for (const Landmark& landmark : mesh.landmarks) {
     const Vec3 at = landmark_position(mesh, summary.points, landmark);
-    report.set("coverage/" + landmark.name + "_in_front_mm", summary.plates.paddle.in_front(at));
+    const Plate& paddle = summary.plates.paddle;
+    const double in_front = paddle.in_front(at);
+    report.set("coverage/" + landmark.name + "_in_front_mm", in_front);
+    if (const auto muscle = muscle_in_front(mesh, summary.points, paddle, at))
+      report.set("coverage/" + landmark.name + "_to_muscle_mm", in_front - *muscle);
   }
   for (const auto& [tissue, range] : summary.strains) {
     const std::string key = "strain/" + std::string(tissue_name(tissue)) + "/";

@@ -270,15 +270,15 @@ class Experiments(InFolder):
     def test_views_are_judged_anew_by_their_numbers(self):
         plates = '"plates": {"paddle": {"edge_force_percent": 10}, "detector": {"edge_force_percent": %d}}'
         view = ('{"status": "converged", "thickness_mm": 60, "force_N": 110, "pressure_kPa": 10, "min_scaled_jacobian": 0.2, '
-                '"turn_deg": 20, "coverage": {"contact_percent_of_projected": %d, "volume_percent": 60, "nipple_in_front_mm": %d}, ')
-        self.write("a/cc.json", view % (39, 70) + plates % 45 + "}")
-        self.write("a/mlo.json", view % (50, 76) + plates % 5 + "}")
-        self.write("b/cc.json", view % (50, 80) + plates % 5 + "}")
+                '"turn_deg": 20, "coverage": {"contact_percent_of_projected": %d, "volume_percent": 60, "nipple_in_front_mm": %d%s}, ')
+        self.write("a/cc.json", view % (39, 70, ', "nipple_to_muscle_mm": 74') + plates % 45 + "}")
+        self.write("a/mlo.json", view % (50, 96, ', "nipple_to_muscle_mm": 76') + plates % 5 + "}")
+        self.write("b/cc.json", view % (50, 80, "") + plates % 5 + "}")
         cc, mlo, other, mean_cc, mean_mlo = views_table([self.folder / "a", self.folder / "b", self.folder / "absent"])
         self.assertEqual(cc["missed"], "contact_percent, detector_edge_percent, turn_deg")
         self.assertEqual((mlo["missed"], mlo["cc_minus_mlo_mm"]), ("volume_percent", "-6.0"))
         self.assertEqual((other["missed"], other["cc_minus_mlo_mm"]), ("turn_deg", "-"))
-        self.assertEqual((mean_cc["missed"], mean_cc["nipple_to_edge_mm"]), ("1 of 2 miss none", "75.0"))
+        self.assertEqual((mean_cc["missed"], mean_cc["nipple_line_mm"]), ("1 of 2 miss none", "75.0"))
         self.assertEqual(mean_mlo["missed"], "0 of 1 miss none")
 
     def test_pressed_puts_calculix_beside_the_sum_of_our_steps(self):

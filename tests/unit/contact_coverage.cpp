@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "fixtures/standing_block.hpp"
 #include "mesh/nodal.hpp"
 
@@ -34,6 +36,28 @@ TEST(Coverage, IsTheVolumeInFrontOfTheEdge) {
   EXPECT_NEAR(of_edge(60).fibroglandular.value(), 0, 1e-9);
   mesh.fibroglandular_fraction.assign(std::size_t(mesh.elements()), 0.25F);
   EXPECT_NEAR(of_edge(20).fibroglandular.value(), 100 * 40.0 / 60, 1e-9);
+}
+
+// The ribs lie at y = 0, and the muscle, 10 thick at one end of the rows and 20 at the other, in front of them.
+TEST(MuscleInFront, IsThatOfTheRowOfTheImage) {
+  HexMesh mesh = fixtures::standing_block({50, 60, 40}, {5, 6, 4});
+  Plate plate = plate_facing(view_pose(Side::left, 0));
+  plate.edge_start = 15;
+  EXPECT_FALSE(muscle_in_front(mesh, mesh.points, plate, mesh.points.front()));
+  for (int e = 0; e < mesh.elements(); ++e) {
+    double front = 0;
+    for (int a = 0; a < 8; ++a) front += -mesh.points[std::size_t(mesh.element(e)[a])].y() / 8;
+    if (front < 10) mesh.tissue[std::size_t(e)] = Tissue::muscle;
+  }
+  double low = 1e30, high = -1e30;
+  for (const Vec3& x : mesh.points) low = std::min(low, x.x()), high = std::max(high, x.x());
+  std::vector<Vec3> sheared = mesh.points;
+  for (Vec3& x : sheared) x.y() -= 10 * (x.x() - low) / (high - low);
+  for (const double part : {0.1, 0.37, 0.9}) {
+    const Vec3 at(low + part * (high - low), -50, 0);
+    EXPECT_NEAR(muscle_in_front(mesh, sheared, plate, at).value(), 10 + 10 * part - 15, 1e-9);
+  }
+  EXPECT_FALSE(muscle_in_front(mesh, sheared, plate, Vec3(high + 5, -50, 0)));
 }
 
 }  // namespace

@@ -261,6 +261,13 @@ TEST(Plates, FootprintIsCutAtTheEdgeNotAtNodes) {
     EXPECT_GE(plates.paddle.gap(mesh.points[node]).value, -1e-9);
     EXPECT_GE(plates.detector.gap(mesh.points[node]).value, -1e-9);
   }
+  // Plates at the edge of the image begin where the wedge is thicker than the breast, which begins at a third of the depth.
+  PlateOptions clinical;
+  clinical.image_edge = 5;
+  const PlatePair at_image = place_plates(mesh, mesh.points, view_pose(Side::left, 0), clinical);
+  EXPECT_NEAR(at_image.paddle.edge_start, 5, 1e-9);
+  EXPECT_NEAR(at_image.initial_thickness, 60 - 20 * 40.0 / 60, 1e-9);
+  EXPECT_GE(at_image.touching_thickness, 60 - 5 * 40.0 / 60);
 }
 
 TEST(Plates, DetectorStaysOrRisesAsFarAsItMay) {

@@ -168,7 +168,7 @@ PathResult Path::follow(State& state) {
 void Path::add_corners() {
   for (const double way : options_.corners) {
     if (stops_.end) {
-      const double initial = plates_.initial_thickness;
+      const double initial = plates_.closing_range;
       stops_.corners.push_back(initial + way * (*stops_.end - initial));
     }
     for (CompressionTarget control : stops_.controls) {
@@ -259,7 +259,7 @@ double Path::expected_way(double thickness) const {
   const Waypoint& here = trail_.here();
   const PathPoint* before = trail_.before() != nullptr ? &trail_.before()->point : nullptr;
   return std::max(here.way, expected_part_of_way(thickness, here.point, before, target_,
-                                                 plates_.initial_thickness));
+                                                 plates_.closing_range));
 }
 
 /// Returns, once, to where abandoning a position first changed the path: short steps may follow a
@@ -500,7 +500,7 @@ double Path::longest_step() const {
       way >= options_.slipping_from - same_part && way < options_.slipping_to - same_part;
   const double part =
       slipping ? std::min(options_.slipping_part, options_.longest_part) : options_.longest_part;
-  return part * plates_.initial_thickness;
+  return part * plates_.closing_range;
 }
 
 }  // namespace

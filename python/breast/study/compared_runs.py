@@ -50,7 +50,8 @@ _OF_VIEW = (_Number("thickness", "mm", "thickness_mm", 1), _Number("reduction of
             _Number("mean pressure", "kPa", "pressure_kPa", 2), _Number("contact area of the paddle", "cm2", "area_cm2", 1),
             _Number("contact, of the projection", "%", "coverage/contact_percent_of_projected", 1),
             _Number("volume in the image", "%", "coverage/volume_percent", 1),
-            _Number("nipple to the edge of the image", "mm", "coverage/nipple_in_front_mm", 1))
+            _Number("nipple to the edge of the image", "mm", "coverage/nipple_in_front_mm", 1),
+            _Number("nipple to the muscle", "mm", "coverage/nipple_to_muscle_mm", 1))
 _OF_LABELS = (_Number("volume", "ml", "breast_ml", 0), _Number("fat", "ml", "volumes_ml/fat", 0),
               _Number("fibroglandular tissue", "ml", "volumes_ml/fibroglandular", 1),
               _Number("density by volume", "%", "density_percent", 1), _Number("skin thickness", "mm", "skin_thickness_mm", 2))

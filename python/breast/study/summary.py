@@ -104,7 +104,7 @@ def _compression_text(run: Path) -> str:
             name, *values, report.text("status"))
     lines = nipple_lines(run)
     if lines:
-        text += (f"  nipple line: CC {lines[0]:.0f} mm, MLO {lines[1]:.0f} mm to the image edge; they differ by "
+        text += (f"  nipple line: CC {lines[0]:.0f} mm, MLO {lines[1]:.0f} mm to the muscle or the image edge; they differ by "
                  f"{abs(lines[0] - lines[1]):.0f} mm (clinics accept {NIPPLE_LINES_DIFFER_MM})\n")
     return text
 

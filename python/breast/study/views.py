@@ -2,6 +2,7 @@
 """Compressed views of many breasts beside what single mammograms show."""
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 from ..cases.compression import VIEWS
@@ -20,7 +21,7 @@ _BOUNDS = (Bound("thickness_mm", "thickness_mm", 1, 30, 90), Bound("paddle_N", "
 _VOLUME = {"CC": Bound("volume_percent", "coverage/volume_percent", 0, 55, ANY),
            "": Bound("volume_percent", "coverage/volume_percent", 0, 90, ANY)}
 _TURN = Bound("turn_deg", "turn_deg", 0, -15, 15)
-_NIPPLE, _ROUNDING = "coverage/nipple_in_front_mm", 0.005
+_ROUNDING = 0.005
 """A force that ends a path is met to half a per cent."""
 
 
@@ -28,10 +29,16 @@ NIPPLE_LINES_DIFFER_MM = 10
 """By so much the nipple lines of a pair of views may differ that clinics accept (docs/validation/views.md)."""
 
 
+def nipple_line(report: StageReport) -> float | None:
+    """From the nipple backwards along its row of the image to the muscle, or to the edge of the image if no muscle is seen there, mm."""
+    to_edge, to_muscle = report.number("coverage/nipple_in_front_mm"), report.number("coverage/nipple_to_muscle_mm")
+    return to_edge if to_edge is None or to_muscle is None else min(to_edge, to_muscle)
+
+
 def nipple_lines(run: Path) -> tuple[float, float] | None:
-    """mm from the nipple to the posterior edge of the image in CC and in MLO; None unless both views are compressions."""
+    """nipple_line in CC and in MLO, mm; None unless both views are compressions."""
     reports = [StageReport.read(run / f"{view}.json") for view in VIEWS]
-    cc, mlo = (None if report.find("accepted") is False else report.number(_NIPPLE) for report in reports)
+    cc, mlo = (None if report.find("accepted") is False else nipple_line(report) for report in reports)
     return None if cc is None or mlo is None else (cc, mlo)
 
 
@@ -47,11 +54,11 @@ def views_table(runs: list[Path]) -> Table:
     are the means of each view, and how many of its rows miss none of the other bounds.
     """
     numbers = [bound.name for bound in (*_BOUNDS, _VOLUME[""], _TURN)]
-    table = Table(["breast", "view", "status", *numbers, "nipple_to_edge_mm", "cc_minus_mlo_mm", "iterations", "cpu_seconds", "missed"])
+    table = Table(["breast", "view", "status", *numbers, "nipple_line_mm", "cc_minus_mlo_mm", "iterations", "cpu_seconds", "missed"])
     rows: dict[str, list[tuple[StageReport, bool]]] = {"CC": [], "MLO": []}
     for run in runs:
         reports = {view: StageReport.read(run / f"{view.lower()}.json") for view in rows}
-        lines = [report.number(_NIPPLE) for report in reports.values()]
+        lines = [nipple_line(report) for report in reports.values()]
         apart = NO_VALUE if None in lines else fixed(lines[0] - lines[1], 1)  # type: ignore[operator]
         for view, report in reports.items():
             if not report:
@@ -60,7 +67,7 @@ def views_table(runs: list[Path]) -> Table:
             missed = [bound.name for bound in bounds if _outside(bound, report)]
             turned = [_TURN.name] if view == "CC" and _outside(_TURN, report) else []
             table.rows.append([run.name, view, report.text("status"),
-                               *(fixed(report.number(b.key), b.decimals) for b in (*bounds, _TURN)), fixed(report.number(_NIPPLE), 1),
+                               *(fixed(report.number(b.key), b.decimals) for b in (*bounds, _TURN)), fixed(nipple_line(report), 1),
                                apart, fixed(report.number("newton_iterations"), 0), fixed(report.number("cpu_seconds"), 0),
                                ", ".join(missed + turned) or "none"])
             rows[view].append((report, not missed))
@@ -71,11 +78,12 @@ def views_table(runs: list[Path]) -> Table:
 
 
 def _means(view: str, found: list[tuple[StageReport, bool]]) -> list[str]:
-    def mean(key: str, decimals: int) -> str:
-        values = [value for report, _ in found if (value := report.number(key)) is not None]
+    def mean(key: str | Callable[[StageReport], float | None], decimals: int) -> str:
+        each = (report.number(key) if isinstance(key, str) else key(report) for report, _ in found)
+        values = [value for value in each if value is not None]
         return fixed(sum(values) / len(values), decimals) if values else NO_VALUE
     met = sum(good for _, good in found)
-    return ["mean", view, NO_VALUE, *(mean(b.key, b.decimals) for b in (*_BOUNDS, _VOLUME[""], _TURN)), mean(_NIPPLE, 1), NO_VALUE,
+    return ["mean", view, NO_VALUE, *(mean(b.key, b.decimals) for b in (*_BOUNDS, _VOLUME[""], _TURN)), mean(nipple_line, 1), NO_VALUE,
             mean("newton_iterations", 0), mean("cpu_seconds", 0), f"{met} of {len(found)} miss none"]
 
 
