@@ -253,6 +253,14 @@ class Variants(unittest.TestCase):
         self.assertIn(f"own_drops = $(info own/soft leaves out of the case mechanics: --materials seed --element q1p0{end}) "
                       f"$(info own/both leaves out of studies/own/kept hexmesh: --elements 16; mechanics: --scale fat=50{end})\n", text)
 
+    def test_replace_options_of_the_same_name(self):
+        text = expanded("variant\tfrom\tstarts_at\thexmesh\tmechanics\n"
+                        "fine\t-\tmesh\t+--elements 20\t+--element q2p1 --scale fat=50\n"
+                        "soft\tfine\treference\t-\t+--scale skin=10 --scale fat=25\n")
+        for line in ("its_hexmesh := --elements 20", "its_mechanics := --materials seed --element q2p1 --scale fat=50",
+                     "its_mechanics := --materials seed --element q2p1 --scale skin=10 --scale fat=25"):
+            self.assertIn(line + "\n", text)
+
     def test_come_from_rows_of_other_studies(self):
         made = studies()
         made.add("scaled", "variant\tstarts_at\tmechanics\nx\treference\t+--a\n", "scaled.tsv")

@@ -15,8 +15,10 @@ namespace breast {
 
 namespace {
 
-constexpr int N = 8;  // nodes, which are the corners
+constexpr int corners = 8;  // the first nodes of an element
 
+/// `N`: nodes of an element, 8 or 27.
+template <int N>
 class CornerVolume final : public Term {
  public:
   CornerVolume(std::vector<double> bulk, const Discretisation& space);
@@ -33,18 +35,21 @@ class CornerVolume final : public Term {
   std::vector<double> bulk_;  // per element, Pa
   Cells cells_;
   std::shared_ptr<const ScatterMap> scatter_;
-  std::array<Eigen::Matrix<double, 3, N>, N> gradients_;  // ∂N/∂ξ at the corners
+  std::array<Eigen::Matrix<double, 3, N>, corners> gradients_;  // ∂N/∂ξ at the corners
 };
 
-CornerVolume::CornerVolume(std::vector<double> bulk, const Discretisation& space)
+template <int N>
+CornerVolume<N>::CornerVolume(std::vector<double> bulk, const Discretisation& space)
     : bulk_(std::move(bulk)), cells_(space.cells) {
-  for (int c = 0; c < N; ++c)
-    gradients_[std::size_t(c)] = hex_shape(1, hex_node_local(1, c)).gradients;
+  constexpr int order = N == 8 ? 1 : 2;
+  for (int c = 0; c < corners; ++c)
+    gradients_[std::size_t(c)] = hex_shape(order, hex_node_local(order, c)).gradients;
   if (space.pattern) scatter_ = std::make_shared<ScatterMap>(*space.pattern, cells_);
 }
 
-bool CornerVolume::element(int e, const State& state, CellMatrices* reference,
-                           CellResults& results) const {
+template <int N>
+bool CornerVolume<N>::element(int e, const State& state, CellMatrices* reference,
+                              CellResults& results) const {
   const Eigen::Matrix<double, 3, N> before = gather<N>(cells_.cell(e), state.reference);
   const Eigen::Matrix<double, 3, N> after = gather<N>(cells_.cell(e), state.x);
   const bool tangent = results.with_tangent();
@@ -66,7 +71,7 @@ bool CornerVolume::element(int e, const State& state, CellMatrices* reference,
       k.noalias() += 3 * stiffness * square * flat * flat.transpose();
       for (int b = 0; b < N; ++b) {
         for (int a = 0; a < N; ++a)
-          k.block<3, 3>(3 * a, 3 * b).noalias() -=
+          k.template block<3, 3>(3 * a, 3 * b).noalias() -=
               stiffness * square * strain * rate.col(b) * rate.col(a).transpose();
       }
     }
@@ -83,7 +88,8 @@ bool CornerVolume::element(int e, const State& state, CellMatrices* reference,
   return true;
 }
 
-bool CornerVolume::add(const State& state, const Request& request, Forces& forces) const {
+template <int N>
+bool CornerVolume<N>::add(const State& state, const Request& request, Forces& forces) const {
   const int count = cells_.count();
   CellMatrices* reference =
       request.reference != nullptr ? &request.reference->next(cells_) : nullptr;
@@ -104,12 +110,12 @@ bool CornerVolume::add(const State& state, const Request& request, Forces& force
 
 std::shared_ptr<const Term> make_corner_volume(const HexMesh& mesh, const MechanicsOptions& options,
                                                const Discretisation& space) {
-  if (mesh.order != 1) return nullptr;
   std::vector<double> bulk;
   for (const Tissue tissue : mesh.tissue)
     bulk.push_back(options.materials.corner_bulk[std::size_t(tissue)]);
   if (std::all_of(bulk.begin(), bulk.end(), [](double k) { return k == 0; })) return nullptr;
-  return std::make_shared<CornerVolume>(std::move(bulk), space);
+  if (mesh.order == 1) return std::make_shared<CornerVolume<8>>(std::move(bulk), space);
+  return std::make_shared<CornerVolume<27>>(std::move(bulk), space);
 }
 
 }  // namespace breast

@@ -84,6 +84,16 @@ def _options_without(text: str, other: str) -> str:
     return " ".join(option for name, option in _options_in(text) if name not in named)
 
 
+def _options_with(text: str, added: str) -> str:
+    """The options of `text` and those added, which replace options of the same name; of one that is given once for each part, as
+    "--scale fat=50", the one of the same part."""
+    def part(name: str, option: str) -> tuple[str, str]:
+        value, equals, _ = option.removeprefix(name).strip(" =").partition("=")
+        return name, value if equals else ""
+    named = {part(*option) for option in _options_in(added)}
+    return " ".join([*(option for name, option in _options_in(text) if part(name, option) not in named), added])
+
+
 class Variant(NamedTuple):
     """A row as it is made: its folder, the folder from which it starts, the stages that it makes itself, those whose files an explicit rule
     of the makefile makes, its last stages, the folder on which it depends ("" if on none), its options by column, and what it leaves
@@ -148,7 +158,7 @@ class Studies:
     def _option(self, cell: str, before: str) -> str:
         if not cell:
             return before
-        return f"{before} {self._named(cell[1:])}" if cell.startswith("+") and before else self._named(cell.removeprefix("+"))
+        return _options_with(before, self._named(cell[1:])) if cell.startswith("+") and before else self._named(cell.removeprefix("+"))
 
     def _drops(self, row: _Row, origin: Mapping[str, str]) -> str:
         """What the cells of a row leave out, as "mechanics: --materials invivo; hexmesh: --muscle measured"."""
