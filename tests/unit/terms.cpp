@@ -83,8 +83,8 @@ Case term_of_scene(const std::string& name, Element element = Element::q1p0, dou
   return out;
 }
 
-Case corner_volume() {
-  Case out = body(Element::q1p0, 0, Invariants::isochoric, false, "spring:0.5,0.2", 3000);
+Case corner_volume(Element element) {
+  Case out = body(element, 0, Invariants::isochoric, false, "spring:0.5,0.2", 3000);
   const LoadedProblem loaded = out.scene->problem(Eigen::VectorXd::Zero(3L * out.mesh.nodes()));
   for (const auto& term : loaded.problem.terms()) {
     if (term->name() == "corner volume") out.term = term;
@@ -189,7 +189,8 @@ const std::vector<Named>& all_terms() {
       {"solid_q2p1", [] { return term_of_scene("solid", Element::q2p1); }},
       {"solid_compressible", [] { return term_of_scene("solid", Element::q1p0, 30); }},
       {"solid_plain", [] { return term_of_scene("solid", Element::q1p0, 0, Invariants::plain); }},
-      {"corner_volume", [] { return corner_volume(); }},
+      {"corner_volume", [] { return corner_volume(Element::q1p0); }},
+      {"corner_volume_q2p1", [] { return corner_volume(Element::q2p1); }},
       {"membrane", [] { return term_of_scene("membrane"); }},
       {"membrane_q2", [] { return term_of_scene("membrane", Element::q2p1); }},
       {"membrane_wrinkling",

@@ -28,8 +28,9 @@ MechanicsOptions options_with(double corner_bulk) {
   return options;
 }
 
-HexMesh cube(int n, double distortion = 0) {
+HexMesh cube(int n, double distortion = 0, int order = 1) {
   fixtures::BlockSettings settings;
+  settings.order = order;
   settings.elements = {n, n, n};
   settings.distortion = distortion;
   return fixtures::block(settings);
@@ -37,9 +38,11 @@ HexMesh cube(int n, double distortion = 0) {
 
 // Any deformation that is the same everywhere and keeps volumes, however large, costs nothing in elements of
 // any shape.
-TEST(CornerVolume, DoesNotResistWhatKeepsVolumes) {
-  const HexMesh mesh = cube(3, 0.2);
-  const MechanicsOptions options = options_with(bulk);
+class CornerVolumeOf : public testing::TestWithParam<Element> {};
+TEST_P(CornerVolumeOf, DoesNotResistWhatKeepsVolumes) {
+  const HexMesh mesh = GetParam() == Element::q1p0 ? cube(3, 0.2) : cube(3, 0.1, 2);
+  MechanicsOptions options = options_with(bulk);
+  options.element = GetParam();
   const Scene scene(mesh, options);
   const auto term = make_corner_volume(mesh, options, *scene.solid().space());
   Mat3 f;
@@ -55,6 +58,8 @@ TEST(CornerVolume, DoesNotResistWhatKeepsVolumes) {
   EXPECT_LT(forces.r.lpNorm<Eigen::Infinity>(), 1e-6 * bulk);
   EXPECT_LT(forces.energy, 1e-18 * bulk * 1e6);
 }
+
+INSTANTIATE_TEST_SUITE_P(Elements, CornerVolumeOf, testing::Values(Element::q1p0, Element::q2p1));
 
 Vec3 moved_corner(int n, double corner_bulk) {
   HexMesh mesh = cube(n);
