@@ -120,17 +120,20 @@ def run_stage(record: Path, settings: str, words: Sequence[str], prints: Path | 
     if keep:
         words = [*words, "--keep-unconverged"]
     log, screen, said = record.parent / "log.txt", _Screen(label), [""]
-    with open(log, "a", encoding="utf-8", errors="surrogateescape", buffering=1) as file:
-        file.write(f"{time.strftime('%H:%M:%S')} {label}: {' '.join(words)}\n")
+    part = prints and prints.with_name(prints.name + ".part")
+    try:
+        with open(log, "a", encoding="utf-8", errors="surrogateescape", buffering=1) as file:
+            file.write(f"{time.strftime('%H:%M:%S')} {label}: {' '.join(words)}\n")
 
-        def say(line: str) -> None:
-            said.append(line)
-            file.write(f"{label}: {line}\n")
-        with contextlib.ExitStack() as stack:
-            part = prints and prints.with_name(prints.name + ".part")
-            code = follow_child(words, say, screen.tick, stack.enter_context(open(part, "wb")) if part else None)
-        if prints and part and code == 0:
-            part.replace(prints)
+            def say(line: str) -> None:
+                said.append(line)
+                file.write(f"{label}: {line}\n")
+            with contextlib.ExitStack() as stack:
+                code = follow_child(words, say, screen.tick, stack.enter_context(open(part, "wb")) if part else None)
+            if prints and part and code == 0:
+                part.replace(prints)
+    except OSError as error:
+        raise Failed(f"could not be written: {error.strerror}", error.filename or log) from None
     kept = keep is not None and code == NOT_CONVERGED and keep.exists()
     if code != 0 and spared is not None:
         spared.unlink(missing_ok=True)

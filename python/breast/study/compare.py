@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 from pathlib import Path
 
 from ..command.tool import Run, Tool
@@ -61,15 +62,22 @@ def _printed(pair: Pair) -> str:
 
 
 def _write(pair: Pair, folder: Path) -> None:
-    table, page = pair.table().text() + "\r\n", compare_page(pair)
+    """Both files, or neither of them and no folder that was not there before."""
+    files = {folder / "compare.html": compare_page(pair), folder / "compare.tsv": pair.table().text() + "\r\n"}
+    found = folder.exists()
     try:
         folder.mkdir(exist_ok=True)
     except OSError as error:
         raise Failed(f"could not be made: {error.strerror}", folder) from None
-    for name in ("compare.tsv", "compare.html"):
-        check_replaceable(folder / name, "--out")
-    write_text(folder / "compare.tsv", table)
-    write_text(folder / "compare.html", page)
+    for file in files:
+        check_replaceable(file, "--out")
+    try:
+        for file, text in files.items():
+            write_text(file, text)
+    except Failed:
+        if not found:
+            shutil.rmtree(folder, ignore_errors=True)
+        raise
 
 
 def _compare(run: Run) -> None:
