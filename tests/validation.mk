@@ -50,6 +50,22 @@ plates-tables:
 # of the report.
 made_by = flock $(TABLES_OF_PAGE) $(tabulate) made $@ $1
 
+# Of docs/validation/errors.md: error against run time of the case (`make PRESET=average cost`), and what all tables say together.
+cost-table: cost
+	cp $(COST)/cost.tsv $(TABLES_OF_PAGE)/cost.tsv
+	$(tabulate) made $(TABLES_OF_PAGE)/cost.tsv $(call study_dir,cost)/$(COST_FINEST)/supine.json
+errors-page: $(TABULATE) $(RENDER)
+	for name in error-sources methods-cost; do \
+	  $(tabulate) $$name $(TABLES_OF_PAGE) > $(TABLES_OF_PAGE)/$$name.tsv.part; \
+	  mv $(TABLES_OF_PAGE)/$$name.tsv.part $(TABLES_OF_PAGE)/$$name.tsv; \
+	  $(RENDER) $(TABLES_OF_PAGE)/$$name.tsv --figure $$name -o docs/validation/$$name.png; done
+	$(tabulate) pages fill $(PAGES_WITH_TABLES)
+.PHONY: cost-table errors-page
+# The pictures of docs/gallery.md, of this case.
+gallery: chain
+	tests/bench/gallery.sh $(BIN) $(RUN) $(MR) docs/gallery.md
+.PHONY: gallery
+
 # How the compressed shapes converge with the mesh (studies/convergence.tsv).
 $(TABLES_OF_PAGE)/compression-convergence.tsv: $(call results,convergence,$(convergence_variants),cc mlo) $(TABULATE)
 	@mkdir -p $(@D)

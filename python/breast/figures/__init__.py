@@ -49,6 +49,8 @@ FIGURES = {
     "motion": Figure("how far tissue moves from prone to supine by its depth, beside living women (from a .tsv of population)"),
     "cost": Figure("error against run time (from the table .tsv of tabulate cost)"),
     "budget": Figure("what is left of the errors when one stage is replaced by the truth (from the .tsv of tabulate budget)"),
+    "error-sources": Figure("what moves a predicted place by how many mm (from the .tsv of tabulate error-sources)"),
+    "methods-cost": Figure("error against CPU time over all methods (from the .tsv of tabulate methods-cost)"),
 }
 
 

@@ -10,7 +10,7 @@ from ..command.tool import Run, Tool
 from ..errors import BreastError
 from ..page import views_page  # noqa: F401
 from . import summary, report, advice, verify, values, truth, documents  # noqa: F401, I001  the order of the help
-from . import run_tables, paper_tables, slopes, verdicts, findings, experiments, cost, leaveout, draws, cohort, sides, same_scan, views  # noqa: F401
+from . import run_tables, paper_tables, slopes, verdicts, findings, experiments, cost, leaveout, draws, cohort, sides, same_scan, views, error_sources  # noqa: F401
 from .kinds import KINDS, Request, kind_called
 
 
