@@ -162,10 +162,11 @@ class DocumentedCommands(unittest.TestCase):
                 self.check(self.clone, words, *(["--dry-run"] if planned else []))
 
     def test_tools_on_the_demonstration(self) -> None:
-        """Those of a page in order, in a folder with the files of a run, both mammograms as DICOM, and the scan."""
+        """Those of a page in order, in a folder with the files of a run, both mammograms as DICOM, and a scan; that of the run is beside."""
         dicom = small_run.scratch("documented-dicom")
         for view in ("cc", "mlo"):
             small_run.tool(f"project-mammogram {small_run.demo()}/{view}.vtkhdf {dicom}/{view}.vti --dicom {dicom}/{view}.dcm", dicom)
+        _link(small_run.scratch("phantom"), (small_run.demo().parent / "phantom").glob("*.nrrd"))
         done: set[str] = set()
         pages: dict[str, list[str]] = {}
         for words in self.of("breast", *TOOLS):
