@@ -145,7 +145,7 @@ class DocumentedCommands(unittest.TestCase):
         """
         alike: dict[tuple[str, ...], list[str]] = {}
         for words in self.of("make"):
-            parts = words.split()
+            parts = shlex.split(words)
             targets = [part for part in parts[1:] if re.fullmatch(r"[a-z][a-z0-9-]*", part)]
             settings = sorted(part for part in parts if "=" in part)
             alike.setdefault((str(bool(OF_PAPER.intersection(targets))), str("check" in targets), *settings), []).append(words)
