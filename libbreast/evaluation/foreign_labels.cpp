@@ -6,16 +6,18 @@
 #include <cmath>
 #include <limits>
 
+#include "image/nearest_voxel.hpp"
+
 namespace breast {
 
 void restrict_breast(LabelVolume& labels, const Volume<float>& region, int code) {
   const Grid& grid = labels.grid;
+  const NearestVoxel nearest(region.grid);
   const auto inside = [&](const Vec3& patient) {
-    const Vec3 at = region.grid.to_index(patient);
-    const int i = int(std::lround(at.x())), j = int(std::lround(at.y())),
-              k = int(std::lround(at.z()));
-    if (!region.grid.contains(i, j, k)) return false;
-    return code == 0 ? region.at(i, j, k) != 0 : region.at(i, j, k) == float(code);
+    const std::ptrdiff_t voxel = nearest.at(patient);
+    if (voxel < 0) return false;
+    const float value = region.voxels[std::size_t(voxel)];
+    return code == 0 ? value != 0 : value == float(code);
   };
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int j = 0; j < grid.size[1]; ++j) {

@@ -6,6 +6,7 @@
 
 #include "core/parallel.hpp"
 #include "core/units.hpp"
+#include "image/nearest_voxel.hpp"
 
 namespace breast {
 
@@ -61,16 +62,16 @@ Counts count_common(const LabelVolume& fine, const LabelVolume& coarse) {
 /// them covers.
 Overlap body_overlap(const LabelVolume& fine, const LabelVolume& coarse) {
   const Grid& grid = fine.grid;
+  const NearestVoxel nearest(coarse.grid);
   double mine = 0, theirs = 0, both = 0;
 #pragma omp parallel for num_threads(threads()) reduction(+ : mine, theirs, both)
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int j = 0; j < grid.size[1]; ++j) {
       for (int i = 0; i < grid.size[0]; ++i) {
-        const Vec3 at = coarse.grid.to_index(grid.to_patient(Vec3(i, j, k)));
-        const int ci = int(std::lround(at.x())), cj = int(std::lround(at.y())),
-                  ck = int(std::lround(at.z()));
-        if (!coarse.grid.contains(ci, cj, ck)) continue;
-        const bool a = fine.at(i, j, k) != Tissue::air, b = coarse.at(ci, cj, ck) != Tissue::air;
+        const std::ptrdiff_t voxel = nearest.at(grid.to_patient(Vec3(i, j, k)));
+        if (voxel < 0) continue;
+        const bool a = fine.at(i, j, k) != Tissue::air,
+                   b = coarse.tissue[std::size_t(voxel)] != std::uint8_t(Tissue::air);
         mine += a;
         theirs += b;
         both += a && b;
@@ -107,19 +108,18 @@ LabelOverlap compare_labels(const LabelVolume& given, const LabelVolume& truth) 
 double gland_dice_in_breast(const LabelVolume& given, const LabelVolume& truth,
                             const std::vector<bool>& half) {
   const Grid& grid = given.grid;
+  const NearestVoxel nearest(truth.grid);
   double found = 0, known = 0, both = 0;
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int j = 0; j < grid.size[1]; ++j) {
       for (int i = 0; i < grid.size[0]; ++i) {
         const Tissue ours = given.at(i, j, k);
         if (!is_breast(ours)) continue;
-        const Vec3 at = truth.grid.to_index(grid.to_patient(Vec3(i, j, k)));
-        const int ti = int(std::lround(at.x())), tj = int(std::lround(at.y())),
-                  tk = int(std::lround(at.z()));
-        if (!truth.grid.contains(ti, tj, tk)) continue;
-        const Tissue theirs = truth.at(ti, tj, tk);
+        const std::ptrdiff_t voxel = nearest.at(grid.to_patient(Vec3(i, j, k)));
+        if (voxel < 0) continue;
+        const auto theirs = static_cast<Tissue>(truth.tissue[std::size_t(voxel)]);
         if (theirs == Tissue::tumour) continue;
-        const bool is_half = !half.empty() && half[truth.grid.offset(ti, tj, tk)];
+        const bool is_half = !half.empty() && half[std::size_t(voxel)];
         const double weight = is_half ? 0.5 : 1;
         const bool a = ours == Tissue::fibroglandular,
                    b = is_half || theirs == Tissue::fibroglandular;

@@ -7,17 +7,16 @@
 
 #include "core/units.hpp"
 #include "evaluation/overlap.hpp"
+#include "image/nearest_voxel.hpp"
 
 namespace breast {
 
 PartialVolume compare_fractions(const LabelVolume& given, const LabelVolume& truth,
                                 const Volume<float>& fraction) {
   const Grid& grid = fraction.grid;
-  const auto nearest = [](const LabelVolume& labels, const Vec3& p) {
-    const Vec3 index = labels.grid.to_index(p);
-    const int i = int(std::lround(index[0])), j = int(std::lround(index[1])),
-              k = int(std::lround(index[2]));
-    return labels.grid.contains(i, j, k) ? labels.at(i, j, k) : Tissue::air;
+  const NearestVoxel in_given(given.grid), in_truth(truth.grid);
+  const auto tissue_at = [](const LabelVolume& labels, std::ptrdiff_t voxel) {
+    return voxel < 0 ? Tissue::air : static_cast<Tissue>(labels.tissue[std::size_t(voxel)]);
   };
   const double scale =
       *std::max_element(fraction.voxels.begin(), fraction.voxels.end()) > 1.0f ? 1.0 / 255 : 1.0;
@@ -28,10 +27,10 @@ PartialVolume compare_fractions(const LabelVolume& given, const LabelVolume& tru
       for (int i = 0; i < grid.size[0]; ++i) {
         const Vec3 p = grid.to_patient(Vec3(i, j, k));
         const double share = scale * fraction.at(i, j, k);
-        if (share > 0 && is_breast(nearest(truth, p))) {
+        if (share > 0 && is_breast(tissue_at(truth, in_truth.at(p)))) {
           shares.push_back(share);
           total += share;
-          if (nearest(given, p) == Tissue::fibroglandular) common += share;
+          if (tissue_at(given, in_given.at(p)) == Tissue::fibroglandular) common += share;
         }
       }
     }

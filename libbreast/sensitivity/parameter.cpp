@@ -5,6 +5,7 @@
 #include <numbers>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 
 #include "core/error.hpp"
 #include "material/set_parameter.hpp"
@@ -87,20 +88,30 @@ bool is_main(const Parameter& parameter) {
 }  // namespace
 
 std::string Parameter::per() const {
-  if (relative()) return "1";
-  return kind == ParameterKind::thickness || kind == ParameterKind::standoff ||
-                 kind == ParameterKind::detector
-             ? "mm"
-             : "degree";
-}
-
-bool Parameter::relative() const {
-  return kind <= ParameterKind::tissue_density || kind == ParameterKind::skin_thickness ||
-         kind == ParameterKind::support || kind == ParameterKind::together;
+  switch (kind) {
+    case ParameterKind::scale:
+    case ParameterKind::constant:
+    case ParameterKind::density:
+    case ParameterKind::tissue_density:
+    case ParameterKind::skin_thickness:
+    case ParameterKind::support:
+    case ParameterKind::together:
+      return "1";
+    case ParameterKind::thickness:
+    case ParameterKind::standoff:
+    case ParameterKind::detector:
+      return "mm";
+    case ParameterKind::gravity:
+    case ParameterKind::imaged_gravity:
+    case ParameterKind::angle:
+      return "degree";
+  }
+  throw std::logic_error("no kind of parameter");
 }
 
 bool Parameter::of_plates() const {
-  return kind >= ParameterKind::thickness;
+  return kind == ParameterKind::thickness || kind == ParameterKind::standoff ||
+         kind == ParameterKind::detector || kind == ParameterKind::angle;
 }
 
 std::vector<Parameter> all_parameters(const HexMesh& state, const MechanicsOptions& options,

@@ -38,7 +38,6 @@ struct Parameter {
   /// Unit of the parameter: "1" for a relative change (derivative with respect to the logarithm),
   /// "degree" or "mm".
   std::string per() const;
-  bool relative() const;
   /// Whether it acts on the plates only.
   bool of_plates() const;
 };

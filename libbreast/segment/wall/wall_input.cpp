@@ -9,16 +9,16 @@
 
 #include "core/elementary.hpp"
 #include "core/error.hpp"
+#include "image/nearest_voxel.hpp"
 
 namespace breast {
 
 double apply_wall_labels(ChestWall& wall, const WallDomain& domain, const Grid& grid,
                          const Volume<float>& labels) {
+  const NearestVoxel nearest(labels.grid);
   const auto muscle_at = [&](double i, double j, double k) {
-    const Vec3 index = labels.grid.to_index(grid.to_patient(Vec3(i, j, k)));
-    const int a = int(std::lround(index[0])), b = int(std::lround(index[1])),
-              c = int(std::lround(index[2]));
-    return labels.grid.contains(a, b, c) && std::lround(labels.at(a, b, c)) == long(Tissue::muscle);
+    const std::ptrdiff_t voxel = nearest.at(grid.to_patient(Vec3(i, j, k)));
+    return voxel >= 0 && std::lround(labels.voxels[std::size_t(voxel)]) == long(Tissue::muscle);
   };
   double replaced = 0, columns = 0;
   constexpr double fine = 0.25;  // voxels
