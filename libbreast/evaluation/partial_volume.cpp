@@ -2,7 +2,6 @@
 #include "evaluation/partial_volume.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 
 #include "core/units.hpp"
