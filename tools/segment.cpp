@@ -78,12 +78,14 @@ void declare(Tool& tool, Choices& c) {
               "region-growing: the paper's 3-D confidence-connected growing of fat. The report "
               "compares both");
   tool.choice(
-      c.contrast, "--contrast", {"auto", "fat-bright", "dixon"},
-      "which tissue is bright. auto: fat, or water and fat with --fat; a scan in which fat "
-      "is not the bright tissue (fat suppression, T2, subtraction, half of a Dixon scan) is "
-      "refused, on the evidence of the skin, fat, muscle, subcutaneous tissue and chest "
-      "wall; fat-bright: the user vouches that fat is bright, and contrary evidence is only "
-      "a warning; dixon: MR is the water image, --fat the fat image");
+      c.contrast, "--contrast", {"auto", "fat-bright", "fat-suppressed", "dixon"},
+      "which tissue is bright. auto: fat, or water and fat with --fat, or with --chest-wall "
+      "suppressed fat, too; a scan in which fat is not the bright tissue (fat suppression, T2, "
+      "subtraction, half of a Dixon scan) is otherwise refused, on the evidence of the skin, fat, "
+      "muscle, subcutaneous tissue and chest wall; fat-bright: the user vouches that fat is "
+      "bright, and contrary evidence is only a warning; fat-suppressed: the user says that fat is "
+      "suppressed, and the scan is refused where muscle is too little brighter than fat to show "
+      "the chest wall; dixon: MR is the water image, --fat the fat image");
   tool.input_file(c.fat, "--fat", "FILE",
                   "fat image of the Dixon scan whose water image is MR: body and chest wall are "
                   "found on their sum, gland by the share of fat; regions in which the scanner "
@@ -119,6 +121,8 @@ void declare(Tool& tool, Choices& c) {
           "reliably");
     if (!c.fat.empty() && c.contrast != "auto" && c.contrast != "dixon")
       throw input_error("--fat is for --contrast dixon or auto, not ", c.contrast);
+    if (c.contrast == "fat-suppressed" && (!c.also.empty() || c.posture != "prone"))
+      throw input_error("--contrast fat-suppressed is for a prone scan alone, without --also");
     if (!c.fat.empty() && !c.also.empty())
       throw input_error(
           "--also is for an MR that does not show the chest wall; the sum of water "
@@ -138,7 +142,7 @@ void declare(Tool& tool, Choices& c) {
 }
 
 Contrast contrast_from_name(const std::string& name) {
-  for (const Contrast one : {Contrast::fat_bright, Contrast::dixon})
+  for (const Contrast one : {Contrast::fat_bright, Contrast::fat_suppressed, Contrast::dixon})
     if (name == contrast_name(one)) return one;
   return Contrast::automatic;
 }
@@ -151,6 +155,10 @@ std::string contrast_words(const Segmentation& result) {
       message(": what lies behind the chest wall ", format_fixed(result.contrast.muscle_ratio, 2),
               " of fat, evidence of saturation ",
               format_fixed(saturation_evidence(result.contrast), 2), " of ", most_evidence);
+  if (result.kind == Contrast::fat_suppressed)
+    words += message(", muscle ", format_fixed(result.muscle_over_fat, 2),
+                     " times as bright as suppressed fat, ",
+                     format_fixed(result.muscle_over_fat_low, 2), " where least");
   if (result.kind == Contrast::dixon)
     words += message(", water and fat exchanged in ", format_fixed(result.exchanged_percent, 1),
                      " % of the breast");

@@ -47,6 +47,11 @@ std::vector<Quantity> measures_of(const Segmentation& result) {
   add("skin_to_subcutis", "skin_to_subcutis", result.contrast.skin_to_subcutis);
   add("saturation_evidence", "saturation_evidence", saturation_evidence(result.contrast));
   add("silent_percent", "silent_percent", 100 * result.contrast.silent_share);
+  if (result.kind == Contrast::fat_suppressed) {
+    add("muscle_over_fat", "muscle_over_fat", result.muscle_over_fat);
+    add("muscle_over_fat_low", "muscle_over_fat_low", result.muscle_over_fat_low);
+    add("unsuppressed_ml", "unsuppressed_ml", result.unsuppressed_ml);
+  }
   if (result.kind == Contrast::dixon)
     add("exchanged_percent", "exchanged_percent", result.exchanged_percent);
   if (result.also.used) {

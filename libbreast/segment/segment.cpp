@@ -16,6 +16,7 @@
 #include "segment/contrast/dixon.hpp"
 #include "segment/contrast/evidence.hpp"
 #include "segment/contrast/second_scan.hpp"
+#include "segment/contrast/suppressed.hpp"
 #include "segment/grid/filters.hpp"
 #include "segment/grid/itk_filters.hpp"
 #include "segment/plausibility.hpp"
@@ -108,7 +109,7 @@ void correct_wall(Work& work, const SegmentOptions& options) {
 void summarise(Segmentation& result, const Work& work) {
   result.midline_mm =
       work.scan.grid.to_patient(Vec3(work.torso.midline, 0, 0.5 * work.scan.grid.size[2]))[0];
-  result.muscle_ratio = work.wall.muscle_ratio;
+  result.muscle_ratio = result.contrast.muscle_ratio;
   result.gland_ratio = work.gland.gland_ratio;
   result.fat_fraction = work.gland.fat_fraction;
   result.fat_fraction_grown = work.gland.fat_fraction_grown;
@@ -290,19 +291,23 @@ MisleadingGland misleading_gland(const Work& work) {
   return gland;
 }
 
-/// Bias, wall and what the user says of it.
-void locate_wall(Work& work, Segmentation& result, const SegmentOptions& options,
-                 Progress& progress, Timer& timer) {
-  find_wall(work, progress, timer);
+/// What the user says of the wall, and muscle that lies on it.
+void complete_wall(Work& work, const SegmentOptions& options, Progress& progress) {
   progress.update("chest wall", 0.5, "muscle on it");
-  const Timer::Scope phase(timer, "bias");
   if (!corrected_by_hand(options)) {
     refine_bias(work);
-    include_front_muscle(work.wall, work.ratio, work.domain,
+    // As suppressed fat is shown, noise turns mixtures of it with skin into muscle.
+    const bool suppressed = options.contrast == Contrast::fat_suppressed;
+    include_front_muscle(work.wall, work.ratio, suppressed ? &work.skin_distance : nullptr,
+                         work.domain,
                          find_extent(work.wall, work.domain, work.torso, work.skin_distance,
                                      options.side, options.posture));
   }
   correct_wall(work, options);
+}
+
+/// The final bias, and the contrast as the wall completes it.
+void complete_bias(Work& work, Segmentation& result, const SegmentOptions& options) {
   refine_bias(work);
   result.bias_cv_before = work.bias.fat_cv_before;
   result.bias_cv_after = work.bias.fat_cv_after;
@@ -310,6 +315,15 @@ void locate_wall(Work& work, Segmentation& result, const SegmentOptions& options
   result.contrast.fat_cv = work.bias.fat_cv_after;
   result.contrast.muscle_ratio = work.wall.muscle_ratio;
   if (options.posture == Posture::prone) complete_contrast(result.contrast, work, options.side);
+}
+
+/// Bias, wall and what the user says of it.
+void locate_wall(Work& work, Segmentation& result, const SegmentOptions& options,
+                 Progress& progress, Timer& timer) {
+  find_wall(work, progress, timer);
+  const Timer::Scope phase(timer, "bias");
+  complete_wall(work, options, progress);
+  complete_bias(work, result, options);
 }
 
 /// The contrast of the scan, where the user does not say it.
@@ -364,10 +378,88 @@ void take_second_scan(Work& work, Images& images, Segmentation& result,
   frame_body(work, options);
 }
 
-/// Bias and wall of the scan that shows them: the first, or else the second.
-void find_wall_on_either(Work& work, Images& images, Segmentation& result,
-                         const SegmentOptions& options, Progress& progress, Timer& timer) {
-  if (!options.also) {
+/// Body in which suppressed fat is hardly brighter than air: what is brighter than both counts as
+/// little brighter, so that the threshold does not fall between fat and what holds water.
+Body body_of_dark_fat(Volume<float> scan, double air_level, const SegmentOptions& options) {
+  constexpr double above_air = 2.5;
+  const float most = float(above_air * air_level);
+  if (most > 0)
+    for (float& value : scan.voxels) value = std::min(value, most);
+  return find_body(scan, options.side, options.posture);
+}
+
+/// Why the wall of a scan with suppressed fat cannot be taken from it; empty if it can.
+std::string refusal_of_suppressed(const SuppressedFat& fat, const FatContrast& shown) {
+  constexpr std::string_view ways_out =
+      "give the chest wall (--chest-wall), or a second scan of the same examination that shows it, "
+      "such as T1 without fat suppression (--also)";
+  std::string reason = refusal_of(fat);
+  const double evidence = saturation_evidence(shown);
+  if (reason.empty() && evidence > most_evidence)
+    reason = message("what is dark does not lie as fat does (evidence ", format_fixed(evidence, 1),
+                     ", at most ", most_evidence, ")");
+  return reason.empty() ? "" : message(reason, ": ", ways_out);
+}
+
+/// Reads a scan with suppressed fat. Returns why its wall cannot be seen; empty if it can, or if the
+/// user gives one.
+std::string read_suppressed(Work& work, Images& images, Segmentation& result,
+                            const SegmentOptions& options, Progress& progress, Timer& timer) {
+  const Volume<float> scan = work.scan;
+  work.body = body_of_dark_fat(scan, work.body.air_level, options);
+  frame_body(work, options);
+  SuppressedFat fat = find_suppressed_wall(work, progress, timer);
+  const Timer::Scope phase(timer, "bias");
+  result.kind = Contrast::fat_suppressed;
+  result.muscle_over_fat = fat.muscle.median;
+  result.muscle_over_fat_low = fat.muscle.low;
+  result.contrast = contrast_below_skin(work);
+  complete_wall(work, options, progress);
+  complete_bias(work, result, options);
+  show_gland(work, scan, images, fat);
+  result.unsuppressed_ml = fat.failed_ml;
+  const std::string refusal = refusal_of_suppressed(fat, result.contrast);
+  if (!refusal.empty() && !corrected_by_hand(options)) return refusal;
+  if (!refusal.empty()) result.doubts.push_back("the chest wall is the given one: " + refusal);
+  if (!corrected_by_hand(options)) {
+    result.doubts.push_back(message(
+        "the chest wall was found in suppressed fat, beside which muscle is ",
+        format_fixed(fat.muscle.median, 2),
+        " times as bright: what lies in front of the ribs may be taken for muscle; check it "
+        "(--overlay)"));
+  }
+  refine_bias(work);
+  result.bias_cv_after = work.bias.fat_cv_after;
+  return "";
+}
+
+/// As read_suppressed(), also where the scan cannot be read at all.
+std::string refusal_as_suppressed(Work& work, Images& images, Segmentation& result,
+                                  const SegmentOptions& options, Progress& progress, Timer& timer) {
+  try {
+    return read_suppressed(work, images, result, options, progress, timer);
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+/// Bias and wall of a scan that comes alone. One in which fat is not bright is read as one with
+/// suppressed fat only if the user says that it is, or gives the wall: muscle that is bright enough
+/// does not tell it from all else that may lie in front of the ribs.
+void find_wall_alone(Work& work, Images& images, Segmentation& result,
+                     const SegmentOptions& options, Progress& progress, Timer& timer) {
+  if (options.contrast == Contrast::fat_suppressed) {
+    const FatContrast below_skin = contrast_below_skin(work);
+    if (!corrected_by_hand(options) && !may_be_suppressed(below_skin))
+      throw input_error(refusal_of_skin(below_skin));
+    const std::string refusal = read_suppressed(work, images, result, options, progress, timer);
+    if (!refusal.empty()) throw input_error(refusal);
+    return;
+  }
+  const bool may_be_suppressed_too = options.contrast == Contrast::automatic && !options.fat &&
+                                     options.posture == Posture::prone &&
+                                     corrected_by_hand(options);
+  if (!may_be_suppressed_too) {
     const std::string refusal = find_contrast(work, result, options, progress, timer);
     if (refusal.empty()) return;
     if (options.contrast != Contrast::fat_bright)
@@ -375,6 +467,21 @@ void find_wall_on_either(Work& work, Images& images, Segmentation& result,
     result.doubts.push_back("accepted as requested: " + refusal);
     return;
   }
+  Work unread = work;
+  const std::string refusal = refusal_alone(work, result, options, progress, timer);
+  if (refusal.empty()) return;
+  if (!may_be_suppressed(result.contrast)) throw input_error(refusal);
+  work = std::move(unread);
+  const std::string suppressed =
+      refusal_as_suppressed(work, images, result, options, progress, timer);
+  if (!suppressed.empty())
+    throw input_error(refusal, "; as a scan with suppressed fat: ", suppressed);
+}
+
+/// Bias and wall of the scan that shows them: the first, or else the second.
+void find_wall_on_either(Work& work, Images& images, Segmentation& result,
+                         const SegmentOptions& options, Progress& progress, Timer& timer) {
+  if (!options.also) return find_wall_alone(work, images, result, options, progress, timer);
   Work alone = work;
   const std::string unseen = refusal_alone(alone, result, options, progress, timer);
   if (unseen.empty()) {
@@ -418,6 +525,8 @@ std::string_view contrast_name(Contrast contrast) {
   switch (contrast) {
     case Contrast::fat_bright:
       return "fat-bright";
+    case Contrast::fat_suppressed:
+      return "fat-suppressed";
     case Contrast::dixon:
       return "dixon";
     default:

@@ -20,9 +20,10 @@ namespace breast {
 
 /// Which tissue is bright.
 enum class Contrast {
-  automatic,   ///< by the evidence of the image
-  fat_bright,  ///< as in T1; if the user says so, contrary evidence is only a warning
-  dixon        ///< water and fat as two images
+  automatic,       ///< by the evidence of the image
+  fat_bright,      ///< as in T1; if the user says so, contrary evidence is only a warning
+  fat_suppressed,  ///< fat is dark, muscle and gland are brighter
+  dixon            ///< water and fat as two images
 };
 std::string_view contrast_name(Contrast contrast);
 
@@ -77,6 +78,10 @@ struct Segmentation {
   Contrast kind = Contrast::fat_bright;  ///< of the scan that shows the tissues
   FatContrast contrast;                  ///< of that scan
   double exchanged_percent = 0;          ///< of the breast, where water and fat of a Dixon scan are
+  /// Brightness of muscle over that of suppressed fat: median, and the twentieth of places where it
+  /// is least; 0 where fat is not suppressed.
+  double muscle_over_fat = 0, muscle_over_fat_low = 0;
+  double unsuppressed_ml = 0;  ///< in front of the chest wall, where suppression of fat fails
   SecondScanUse also;
   double roll_degrees = 0;          ///< by which the labels' grid is turned against the scan's
   double wall_shift = 0;            ///< standard deviations the wall was moved by

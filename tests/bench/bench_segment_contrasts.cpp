@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Segmentations of known anatomies in the contrasts of breast MR.
 //
-//     bench_segment_contrasts TRUTH... [--only CASE]...
+//     bench_segment_contrasts TRUTH... [--side left|right] [--only CASE]...
 //
 // TRUTH are label maps as of bench_segment_truth. Each is imaged by the signal equation of the
 // phantom (phantom/mr_contrast.hpp) with coil bias and noise: T1; water and fat of a Dixon scan,
 // with and without a tenth of the body in which they are exchanged, with all of it exchanged, and
-// each alone; suppressed fat with muscle 4, 2, 1.4 and 1 times as bright, with and without a tenth
-// in which suppression fails, and with T1 as second scan. --only leaves T1 and the cases named. Prints a row for each side: what
-// the scan was taken for, errors of the wall and of the nipple (mm), gland (ml and Dice), breast
-// (ml), where water and fat were found exchanged (% of the breast), the evidence of saturation and
-// the silent share (contrast/evidence.hpp), or why it was refused.
+// each alone; suppressed fat, as the user says, with muscle 4, 2, 1.4 and 1 times as bright, with and
+// without a tenth in which suppression fails, and with T1 as second scan. --only leaves T1 and the
+// cases named, and --side one of the two sides. Prints a row for each side: what the scan was taken
+// for, errors of the wall and of the nipple (mm), gland (ml and Dice), breast (ml), where water and
+// fat were found exchanged (% of the breast), the evidence of saturation and the silent share
+// (contrast/evidence.hpp), or why it was refused.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -145,12 +146,14 @@ std::vector<Case> cases() {
                  }});
   for (const double ratio : {4.0, 2.0, 1.4, 1.0}) {
     for (const double failed : {0.0, 0.1}) {
-      all.push_back({message("suppressed ", ratio, failed > 0 ? ", 10 % failed" : ""),
-                     [ratio, failed](const Anatomy& a, SegmentOptions&, std::uint64_t seed) {
-                       return a.scanned(saturated(a.image.parts, fat_left(ratio),
-                                                  failing_region(a.image.signal, failed, seed)),
-                                        seed);
-                     }});
+      all.push_back(
+          {message("suppressed ", ratio, failed > 0 ? ", 10 % failed" : ""),
+           [ratio, failed](const Anatomy& a, SegmentOptions& options, std::uint64_t seed) {
+             options.contrast = Contrast::fat_suppressed;
+             return a.scanned(saturated(a.image.parts, fat_left(ratio),
+                                        failing_region(a.image.signal, failed, seed)),
+                              seed);
+           }});
     }
     all.push_back({message("suppressed ", ratio, " beside T1"),
                    [ratio](const Anatomy& a, SegmentOptions& options, std::uint64_t seed) {
@@ -187,10 +190,11 @@ void print_row(const Segmentation& result, const Anatomy& anatomy, const Vec3& n
   std::fflush(stdout);
 }
 
-void run(const std::string& file, const std::vector<std::string>& only) {
+void run(const std::string& file, const std::vector<Side>& sides,
+         const std::vector<std::string>& only) {
   const Anatomy anatomy(file);
   const std::string name = std::filesystem::path(file).filename().string();
-  for (const Side side : {Side::left, Side::right}) {
+  for (const Side side : sides) {
     Vec3 nipple = Vec3::Zero();
     for (const Case& one : cases()) {
       if (!only.empty() && one.name != "T1" &&
@@ -221,20 +225,24 @@ void run(const std::string& file, const std::vector<std::string>& only) {
 int main(int argc, char** argv) {
   try {
     std::vector<std::string> files, only;
+    std::vector<breast::Side> sides{breast::Side::left, breast::Side::right};
     for (int n = 1; n < argc; ++n) {
       const std::string word = argv[n];
       if (word == "--only" && n + 1 < argc) {
         only.emplace_back(argv[++n]);
+      } else if (word == "--side" && n + 1 < argc) {
+        sides = {breast::side_from_name(argv[++n])};
       } else {
         files.push_back(word);
       }
     }
     if (files.empty())
-      throw breast::input_error("usage: bench_segment_contrasts TRUTH... [--only CASE]");
+      throw breast::input_error(
+          "usage: bench_segment_contrasts TRUTH... [--side left|right] [--only CASE]");
     std::printf(
         "truth\tside\tscan\ttaken_for\twall_mean\twall_p95\tnipple_mm\tgland_ml\tgland_dice\t"
         "breast_ml\texchanged\tevidence\tsilent\tmessages\n");
-    for (const std::string& file : files) breast::run(file, only);
+    for (const std::string& file : files) breast::run(file, sides, only);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bench_segment_contrasts: %s\n", error.what());

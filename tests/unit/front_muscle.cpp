@@ -12,7 +12,7 @@ namespace {
 
 // A flat wall at 90 mm under 70 mm of fat, over 150 mm from the midline to the left.
 struct FlatWall {
-  Volume<float> ratio;
+  Volume<float> ratio, skin_distance;
   WallDomain domain;
   ChestWall wall;
   BreastExtent extent;
@@ -34,7 +34,13 @@ struct FlatWall {
     extent.columns.assign(std::size_t(grid.size[0]) * grid.size[2], 0);
     for (int k = 5; k < 25; ++k) extent.columns[std::size_t(k) * grid.size[0] + 50] = 1;
     fill(0, 1000, depth, 1000, 0.3f);
+    skin_distance = Volume<float>(grid);
+    for (int k = 0; k < grid.size[2]; ++k)
+      for (int j = 0; j < grid.size[1]; ++j)
+        for (int i = 0; i < grid.size[0]; ++i)
+          skin_distance.at(i, j, k) = float(skin - j * grid.spacing[1]);
   }
+  double include() { return include_front_muscle(wall, ratio, &skin_distance, domain, extent); }
   /// Between two places across (mm) and two depths.
   void fill(double from, double to, double front, double back, float value) {
     const Grid& grid = ratio.grid;
@@ -51,7 +57,7 @@ struct FlatWall {
 TEST(FrontMuscle, LayerThatRunsToTheSideIsBehindTheWall) {
   FlatWall flat;
   flat.fill(90, 1000, 78, FlatWall::depth, 0.65f);
-  const double moved = include_front_muscle(flat.wall, flat.ratio, flat.domain, flat.extent);
+  const double moved = flat.include();
   EXPECT_NEAR(flat.depth_at(120), 78, 1.6);
   EXPECT_NEAR(flat.depth_at(145), 78, 1.6);
   EXPECT_NEAR(flat.depth_at(60), FlatWall::depth, 0.1);
@@ -61,7 +67,7 @@ TEST(FrontMuscle, LayerThatRunsToTheSideIsBehindTheWall) {
 TEST(FrontMuscle, BelowTheBreastTheWallStays) {
   FlatWall flat;
   flat.fill(90, 1000, 78, FlatWall::depth, 0.65f);
-  include_front_muscle(flat.wall, flat.ratio, flat.domain, flat.extent);
+  flat.include();
   EXPECT_NEAR(flat.depth_at(120, 6), 78, 1.6);
   EXPECT_NEAR(flat.depth_at(120, 3), FlatWall::depth, 0.1);
   EXPECT_NEAR(flat.depth_at(120, 26), FlatWall::depth, 0.1);
@@ -70,22 +76,35 @@ TEST(FrontMuscle, BelowTheBreastTheWallStays) {
 TEST(FrontMuscle, GlandOnTheWallStaysBeforeIt) {
   FlatWall flat;
   flat.fill(30, 80, 78, FlatWall::depth, 0.5f);
-  EXPECT_EQ(include_front_muscle(flat.wall, flat.ratio, flat.domain, flat.extent), 0);
+  EXPECT_EQ(flat.include(), 0);
   EXPECT_NEAR(flat.depth_at(50), FlatWall::depth, 0.1);
 }
 
 TEST(FrontMuscle, GlandClearOfTheWallStaysBeforeIt) {
   FlatWall flat;
   flat.fill(90, 1000, 50, 76, 0.5f);
-  include_front_muscle(flat.wall, flat.ratio, flat.domain, flat.extent);
+  flat.include();
   EXPECT_NEAR(flat.depth_at(120), FlatWall::depth, 0.1);
+}
+
+TEST(FrontMuscle, TheLowerSkinOfTheBreastIsNoMuscle) {
+  // Slice 5 runs along it, and is as dark as muscle mixed with fat all the way to the wall.
+  FlatWall flat;
+  const Grid& grid = flat.ratio.grid;
+  for (int j = 0; j * grid.spacing[1] < FlatWall::depth; ++j) {
+    for (int i = 0; i < grid.size[0]; ++i) {
+      flat.ratio.at(i, j, 5) = 0.6f;
+      for (int k = 0; k < 5; ++k) flat.skin_distance.at(i, j, k) = 1;
+    }
+  }
+  EXPECT_EQ(flat.include(), 0);
 }
 
 TEST(FrontMuscle, TheOtherSideMirrorsIt) {
   FlatWall flat;
   flat.fill(0, 60, 78, FlatWall::depth, 0.65f);
   flat.domain.left = false;
-  include_front_muscle(flat.wall, flat.ratio, flat.domain, flat.extent);
+  flat.include();
   EXPECT_NEAR(flat.depth_at(30), 78, 1.6);
   EXPECT_NEAR(flat.depth_at(90), FlatWall::depth, 0.1);
 }

@@ -31,12 +31,13 @@ struct Patient {
     suppressed = truth.image_of([&](const Vec3& p) { return suppressed_at(p); }, 5);
   }
   /// Muscle is little brighter than fat.
-  double suppressed_at(const Vec3& p) const {
+  double suppressed_at(const Vec3& p) const { return suppressed_at(p, 0.35); }
+  double suppressed_at(const Vec3& p, double muscle) const {
     const double signal = truth.signal(p);
     const bool on_chest = p[1] < truth.wall(p[0], p[2]) - truth.fat_layer + 3;
     const bool skin = truth.in_skin(p, 3) || (on_chest && !truth.in_ellipsoid(p, 1));
     if (signal > 0 && skin) return 0.8;
-    return signal == 1 ? 0.3 : signal == 0.6 ? 0.9 : signal;
+    return signal == 1 ? 0.3 : signal == 0.6 ? 0.9 : signal == 0.35 ? muscle : signal;
   }
   double fat_at(const Vec3& p) const {
     return truth.in_skin(p, 3) || truth.signal(p) < 1 ? 0.1 : 0.95;
@@ -150,6 +151,58 @@ TEST(Dixon, ImagesThatAreNotWaterAndFatOfOneScanAreRefused) {
   options.fat->grid.origin[2] += 2;
   const std::string moved = refusal(patient().fat, options);
   EXPECT_NE(moved.find("give the two images of one Dixon scan"), std::string::npos) << moved;
+}
+
+Volume<float> suppressed_beside_bright_muscle() {
+  return patient().truth.image_of([](const Vec3& p) { return patient().suppressed_at(p, 0.6); }, 7);
+}
+
+SegmentOptions as_suppressed() {
+  SegmentOptions options;
+  options.contrast = Contrast::fat_suppressed;
+  return options;
+}
+
+TEST(Suppressed, MuscleTwiceAsBrightShowsTheWall) {
+  const Segmentation result = run(suppressed_beside_bright_muscle(), as_suppressed());
+  EXPECT_EQ(result.kind, Contrast::fat_suppressed);
+  EXPECT_NEAR(result.muscle_over_fat, 2, 0.3);
+  EXPECT_EQ(result.unsuppressed_ml, 0);
+  EXPECT_GT(compare_labels(result.labels, as_t1().labels).breast.dice, 0.95);
+  EXPECT_LT(compare_walls(result.labels, as_t1().labels).distance.mean_mm, 2);
+  EXPECT_NEAR(gland_ml(result), gland_ml(as_t1()), 0.15 * gland_ml(as_t1()));
+  EXPECT_LT((result.labels.landmarks.at("nipple") - as_t1().labels.landmarks.at("nipple")).norm(),
+            6);
+}
+
+TEST(Suppressed, MuscleLittleBrighterIsRefusedWithTheNumberAndTheWaysOut) {
+  const std::string reason = refusal(patient().suppressed, as_suppressed());
+  for (const char* words : {"times as bright as fat (at least 1.2", "--chest-wall", "--also"})
+    EXPECT_NE(reason.find(words), std::string::npos) << reason;
+}
+
+TEST(Suppressed, WhatIsNoneOfItIsRefused) {
+  for (const Volume<float>* other : {&patient().t1, &patient().water, &patient().fat})
+    EXPECT_NE(refusal(*other, as_suppressed()), "accepted");
+}
+
+TEST(Suppressed, UnlessSaidItIsRefusedWithTheOptionThatReadsIt) {
+  const std::string reason = refusal(suppressed_beside_bright_muscle());
+  EXPECT_NE(reason.find("--contrast fat-suppressed"), std::string::npos) << reason;
+}
+
+TEST(Suppressed, AGivenWallIsTheWayOut) {
+  SegmentOptions options;
+  const SyntheticScan& truth = patient().truth;
+  options.wall_points_of_surface = true;
+  for (double x = 5; x < 150; x += 5)
+    for (double z = -70; z < 70; z += 5) options.wall_points.emplace_back(x, truth.wall(x, z), z);
+  const Segmentation result = run(patient().suppressed, options);
+  EXPECT_EQ(result.kind, Contrast::fat_suppressed);
+  EXPECT_GT(compare_labels(result.labels, as_t1().labels).breast.dice, 0.95);
+  EXPECT_TRUE(std::any_of(result.doubts.begin(), result.doubts.end(), [](const std::string& doubt) {
+    return doubt.find("the chest wall is the given one: muscle is ") == 0;
+  }));
 }
 
 Segmentation with_second(const Volume<float>& first, const Volume<float>& second) {

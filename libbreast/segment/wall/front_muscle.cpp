@@ -41,21 +41,35 @@ double obliqueness(const ChestWall& wall, const WallDomain& domain, double spaci
   return std::hypot(1, slope_across(wall, domain, spacing, i, k));
 }
 
-/// Mean ratio along j of a column in neighbouring slices. Columns beside it would blur a wall that
-/// is oblique to them.
-std::vector<float> profile_along(const Volume<float>& ratio, int i, int k) {
+/// What a column shows along j.
+struct Profile {
+  std::vector<float> ratio;
+  std::vector<char> skin;  ///< a slice runs along the skin there, as in the fold below the breast
+};
+
+/// Mean of a column in neighbouring slices. Columns beside it would blur a wall that is oblique to
+/// them.
+Profile profile_along(const Volume<float>& ratio, const Volume<float>* skin_distance, int i,
+                      int k) {
   const auto& size = ratio.grid.size;
-  std::vector<float> profile(std::size_t(size[1]), 0);
+  Profile profile{std::vector<float>(std::size_t(size[1]), 0),
+                  std::vector<char>(std::size_t(size[1]), 0)};
   const int first = std::max(k - 1, 0), last = std::min(k + 1, size[2] - 1);
   for (int c = first; c <= last; ++c)
     for (int j = 0; j < size[1]; ++j)
-      profile[std::size_t(j)] += ratio.at(i, j, c) / float(last - first + 1);
+      profile.ratio[std::size_t(j)] += ratio.at(i, j, c) / float(last - first + 1);
+  if (!skin_distance) return profile;
+  // The outermost slice of the body is shared with skin.
+  for (int c = std::max(first - 1, 0); c <= std::min(last + 1, size[2] - 1); ++c)
+    for (int j = 0; j < size[1]; ++j)
+      if (skin_distance->at(i, j, c) > 0) profile.skin[std::size_t(j)] = 1;
   return profile;
 }
 
 /// Costs of a layer of 0, 1, 2 ... voxels in front of the wall in a column; as many as may be.
 std::vector<float> layer_costs(const ChestWall& wall, const Volume<float>& ratio,
-                               const WallDomain& domain, int i, int k) {
+                               const Volume<float>* skin_distance, const WallDomain& domain, int i,
+                               int k) {
   const double step = ratio.grid.spacing[1], depth = wall.depth.at(i, k);
   std::vector<float> costs{0};
   const bool found = depth < domain.deepest.at(i, k) - clear_of_limit;
@@ -63,15 +77,17 @@ std::vector<float> layer_costs(const ChestWall& wall, const Volume<float>& ratio
   const double oblique = obliqueness(wall, domain, ratio.grid.spacing[0], i, k);
   const double front =
       std::max(depth - thickest * oblique, domain.skin.at(i, k) + clear_of_skin * oblique);
-  const std::vector<float> profile = profile_along(ratio, i, k);
+  const Profile profile = profile_along(ratio, skin_distance, i, k);
   const double muscle = wall.muscle_ratio;
   double fat = 0;
   // The voxel at the wall is shared with what lies behind it.
   for (int j = int(std::floor(depth / step - 0.5)); j >= 0 && j * step > front; --j) {
-    const double darkness = (bright - profile[j]) / (bright - muscle);
+    if (profile.skin[std::size_t(j)]) break;
+    const float value = profile.ratio[std::size_t(j)];
+    const double darkness = (bright - value) / (bright - muscle);
     fat = darkness < 0 ? fat + step / oblique : 0;
     // What lies in front of fat does not lie on the wall; what is far darker than muscle is air.
-    if (fat > most_fat || profile[std::size_t(j)] < 0.5 * muscle) break;
+    if (fat > most_fat || value < 0.5 * muscle) break;
     costs.push_back(costs.back() -
                     float(per_mm * step / oblique * std::clamp(2 * darkness, -1.0, 1.0)));
   }
@@ -80,7 +96,8 @@ std::vector<float> layer_costs(const ChestWall& wall, const Volume<float>& ratio
 
 /// Thickness of the layer (mm along the column) at the columns of the cut.
 std::vector<double> layer_thickness(const ChestWall& wall, const Volume<float>& ratio,
-                                    const WallDomain& domain, const Columns& columns) {
+                                    const Volume<float>* skin_distance, const WallDomain& domain,
+                                    const Columns& columns) {
   const Vec3& spacing = ratio.grid.spacing;
   SurfaceProblem problem;
   problem.nx = columns.count;
@@ -92,8 +109,8 @@ std::vector<double> layer_thickness(const ChestWall& wall, const Volume<float>& 
   problem.top.assign(std::size_t(columns.count) * columns.slices, 0);
   for (int k = 0; k < columns.slices; ++k) {
     for (int c = 0; c < columns.count; ++c) {
-      const std::vector<float> costs =
-          layer_costs(wall, ratio, domain, columns.at(c, domain), columns.first_slice + k);
+      const std::vector<float> costs = layer_costs(wall, ratio, skin_distance, domain,
+                                                   columns.at(c, domain), columns.first_slice + k);
       problem.cost.insert(problem.cost.end(), costs.begin(), costs.end());
       problem.first.push_back(problem.cost.size());
     }
@@ -144,12 +161,13 @@ std::array<int, 2> slices_of(const BreastExtent& extent, const Grid& grid) {
 
 }  // namespace
 
-double include_front_muscle(ChestWall& wall, const Volume<float>& ratio, const WallDomain& domain,
+double include_front_muscle(ChestWall& wall, const Volume<float>& ratio,
+                            const Volume<float>* skin_distance, const WallDomain& domain,
                             const BreastExtent& extent) {
   const Vec3& spacing = ratio.grid.spacing;
   const auto [first_slice, last_slice] = slices_of(extent, ratio.grid);
   const Columns columns{CutColumns(domain, spacing[0]), first_slice, last_slice - first_slice + 1};
-  std::vector<double> thickness = layer_thickness(wall, ratio, domain, columns);
+  std::vector<double> thickness = layer_thickness(wall, ratio, skin_distance, domain, columns);
   keep_at_side(thickness, wall, domain, columns, spacing[0]);
   double moved = 0;
   for (int k = 0; k < columns.slices; ++k) {

@@ -16,8 +16,12 @@ namespace breast {
 /// field of view. The layer is the least cost of darkness of the tissue in it and of steps of its
 /// thickness from column to column (minimum cut). Below and above the breast, where muscle of the
 /// belly and of the shoulder has other shapes, the wall stays: only the slices of `extent` are
-/// searched. `ratio` is intensity / bias. Returns the volume that was moved behind the wall, ml.
-double include_front_muscle(ChestWall& wall, const Volume<float>& ratio, const WallDomain& domain,
+/// searched. `ratio` is intensity / bias. With `skin_distance` (mm, negative in the body; may be
+/// null) the layer does not reach into slices that run along the lower or upper skin of the breast,
+/// which is as dark: where the body ends in the next slice. Returns the volume that was moved behind
+/// the wall, ml.
+double include_front_muscle(ChestWall& wall, const Volume<float>& ratio,
+                            const Volume<float>* skin_distance, const WallDomain& domain,
                             const BreastExtent& extent);
 
 }  // namespace breast

@@ -1,0 +1,375 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "segment/contrast/suppressed.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/elementary.hpp"
+#include "core/error.hpp"
+#include "core/statistics/percentile.hpp"
+#include "core/table.hpp"
+#include "core/units.hpp"
+#include "segment/bias_and_wall.hpp"
+#include "segment/contrast/suppressed_level.hpp"
+#include "segment/grid/filters.hpp"
+#include "segment/grid/itk_filters.hpp"
+
+namespace breast {
+
+namespace {
+
+constexpr float whole_fat = 1000;     // its brightness, as it is shown
+constexpr double wall_clearance = 2;  // mm in front of the wall
+// A scale over less than this would turn noise of fat into tissue.
+constexpr double least_water = 1.15;
+
+/// Depth (mm) per column up to which there may be fat: the wall, or before it is known what lies
+/// little behind the sternal skin, where there is no lung, which can be as dark as suppressed fat.
+double fat_limit(const Work& work, int i, int k) {
+  constexpr double behind_sternum = 8;
+  const bool known = work.wall.depth.nx > 0 && !std::isnan(work.wall.depth.at(i, k));
+  return known ? work.wall.depth.at(i, k) - wall_clearance : work.torso.cleft[k] + behind_sternum;
+}
+
+/// Log level of suppressed fat on the working grid.
+Volume<float> level_of(const Work& work, const Volume<float>& scan) {
+  const Volume<float> coarse = coarsened(scan, {2, 2, 1});
+  const Volume<float> distance = resampled(work.skin_distance, coarse.grid);
+  const Grid& grid = coarse.grid;
+  Mask allowed(grid);
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int i = 0; i < grid.size[0]; ++i) {
+      const double limit = fat_limit(work, std::min(2 * i, scan.grid.size[0] - 1), k);
+      for (int j = 0; j < grid.size[1]; ++j)
+        allowed.at(i, j, k) =
+            distance.at(i, j, k) < 0 && (2 * j + 0.5) * scan.grid.spacing[1] < limit;
+    }
+  }
+  return resampled(suppressed_level(coarse, allowed, distance).log_bias, scan.grid);
+}
+
+Volume<float> relative_to(const Volume<float>& log_level, Volume<float> scan) {
+  for (std::size_t n = 0; n < scan.voxels.size(); ++n)
+    scan.voxels[n] /= elementary::exp(log_level.voxels[n]);
+  return scan;
+}
+
+/// Brightness of skin in front of the sternum's depth: the median, over the surface, of the
+/// brightest within its outer millimetres.
+double brightness_of_skin(const Work& work, const Volume<float>& relative) {
+  constexpr double outer = 3;  // mm
+  Volume<float> shell(relative.grid);
+  for (std::size_t n = 0; n < shell.voxels.size(); ++n)
+    if (-work.skin_distance.voxels[n] > -outer && -work.skin_distance.voxels[n] < outer)
+      shell.voxels[n] = relative.voxels[n];
+  const Volume<float> brightest = box_maximum(shell, outer);
+  std::vector<float> values;
+  const Grid& grid = relative.grid;
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int j = 0; j * grid.spacing[1] < work.torso.cleft[k] && j < grid.size[1]; ++j) {
+      for (int i = 0; i < grid.size[0]; ++i) {
+        const double depth = -work.skin_distance.at(i, j, k);
+        if (depth > 0 && depth < grid.spacing[0]) values.push_back(brightest.at(i, j, k));
+      }
+    }
+  }
+  return median(std::move(values), 1);
+}
+
+/// Of the brightness of muscle: gland has 1.3 times that, and fat that is not suppressed 3 times.
+constexpr double beyond_water = 2.1;
+
+/// Where fat is surely not suppressed: far brighter than tissue that holds `water`.
+Mask far_brighter(const Work& work, const Volume<float>& relative, double water) {
+  const Grid& grid = relative.grid;
+  Mask bright(grid);
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int i = 0; i < grid.size[0]; ++i) {
+      const double limit = fat_limit(work, i, k);
+      for (int j = 0; j < grid.size[1] && j * grid.spacing[1] < limit; ++j)
+        bright.at(i, j, k) =
+            work.body.mask.at(i, j, k) && relative.at(i, j, k) > beyond_water * water;
+    }
+  }
+  return bright;
+}
+
+/// Sets where fat is not suppressed: what hangs together brighter than gland, is larger than a
+/// lesion or a vessel, and reaches the fat below the skin.
+void find_failed(SuppressedFat& fat, const Work& work, const Volume<float>& relative,
+                 double water) {
+  constexpr double beyond_gland = 1.5, thick = 4, least_ml = 10, below_skin = 10;  // mm
+  const Mask sure = far_brighter(work, relative, water);
+  fat.failed = Mask(relative.grid);
+  fat.failed_brightness = 1;
+  fat.failed_ml = 0;
+  if (std::none_of(sure.voxels.begin(), sure.voxels.end(), [](auto v) { return v; })) return;
+  Mask bright(relative.grid);
+  for (std::size_t n = 0; n < bright.voxels.size(); ++n)
+    bright.voxels[n] = work.body.mask.voxels[n] && relative.voxels[n] > beyond_gland * water;
+  const Volume<float> depth = signed_distance(sure);
+  const Components parts = components(bright);
+  struct Part {
+    double sure_ml = 0;
+    bool thick = false, at_skin = false;
+    bool failed() const { return sure_ml > least_ml && thick && at_skin; }
+  };
+  std::vector<Part> all(parts.count + 1);
+  for (std::size_t n = 0; n < bright.voxels.size(); ++n) {
+    Part& part = all[parts.label[n]];
+    part.sure_ml += sure.voxels[n] * relative.grid.voxel_volume() / mm3_per_ml;
+    part.thick = part.thick || depth.voxels[n] < -thick;
+    part.at_skin = part.at_skin || (sure.voxels[n] && -work.skin_distance.voxels[n] < below_skin);
+  }
+  std::vector<float> values;
+  for (std::size_t n = 0; n < bright.voxels.size(); ++n) {
+    if (!bright.voxels[n] || !all[parts.label[n]].failed()) continue;
+    fat.failed.voxels[n] = 1;
+    fat.failed_ml += sure.voxels[n] * relative.grid.voxel_volume() / mm3_per_ml;
+    if (depth.voxels[n] < -thick) values.push_back(relative.voxels[n]);
+  }
+  fat.failed_brightness = median(std::move(values), 1);
+}
+
+/// As a scan with bright fat would show it: fat 1, tissue `water` times as bright as suppressed fat
+/// `dark`, and mixtures between. Near `failed` suppression, what is brighter than water is a
+/// mixture with fat, too.
+struct Shown {
+  double water, dark, failed_fat;
+  float operator()(double relative, bool near_failed) const {
+    constexpr double least = 0.1, most = 1.3, darkest_fat = 0.3;
+    if (relative < darkest_fat) return float(dark);  // lung, or what holds no signal
+    const double share = (relative - 1) / (water - 1);
+    if (near_failed && relative > water) {
+      const double back = (relative - water) / std::max(failed_fat - water, 1e-6);
+      return float(std::clamp(dark + (1 - dark) * back, dark, most));
+    }
+    return float(std::clamp(1 - (1 - dark) * share, least, most));
+  }
+};
+
+Mask resampled_mask(const Mask& coarse, const Grid& fine) {
+  Volume<float> share(coarse.grid);
+  share.voxels.assign(coarse.voxels.begin(), coarse.voxels.end());
+  share = resampled(share, fine);
+  Mask out(fine);
+  for (std::size_t n = 0; n < out.voxels.size(); ++n) out.voxels[n] = share.voxels[n] > 0.5f;
+  return out;
+}
+
+/// Within `reach` mm of a mask.
+Mask wider(const Mask& mask, double reach) {
+  Volume<float> value(mask.grid);
+  value.voxels.assign(mask.voxels.begin(), mask.voxels.end());
+  value = box_maximum(value, reach);
+  Mask out(mask.grid);
+  for (std::size_t n = 0; n < out.voxels.size(); ++n) out.voxels[n] = value.voxels[n] > 0;
+  return out;
+}
+
+constexpr double by_failed = 10;  // mm: over these, failed suppression ends
+
+/// Where suppression fades, fat has any brightness, that of gland as well: between fat that is
+/// suppressed and fat that is not.
+Mask fading(const Volume<float>& relative, const Volume<float>& skin_distance,
+            const Mask& near_failed) {
+  constexpr double skin = 4, smooth = 1.5;  // mm
+  constexpr float darkest = 0.6f, brightest = 1.2f;
+  const Volume<float> smoothed = gaussian(relative, smooth);
+  Mask fat(relative.grid);
+  for (std::size_t n = 0; n < fat.voxels.size(); ++n) {
+    const float r = smoothed.voxels[n];
+    fat.voxels[n] = skin_distance.voxels[n] < -skin && r > darkest && r < brightest;
+  }
+  fat = wider(fat, by_failed);
+  for (std::size_t n = 0; n < fat.voxels.size(); ++n)
+    fat.voxels[n] = fat.voxels[n] && near_failed.voxels[n];
+  return fat;
+}
+
+/// Everything shown as that, 0 in air.
+Volume<float> shown(const Volume<float>& relative, const Volume<float>& skin_distance,
+                    const Mask& failed, const Shown& as) {
+  constexpr double by_skin = 3;  // mm
+  const bool any = as.failed_fat > 1;
+  const Mask near = any ? wider(failed, by_failed) : failed,
+             between = any ? fading(relative, skin_distance, near) : failed;
+  Volume<float> out(relative.grid);
+  for (std::size_t n = 0; n < out.voxels.size(); ++n) {
+    const float r = relative.voxels[n], d = skin_distance.voxels[n];
+    if (d > by_skin) continue;
+    out.voxels[n] = whole_fat * (between.voxels[n] && d < 0 ? 1 : as(r, near.voxels[n]));
+    if (d > -by_skin) out.voxels[n] *= std::clamp(2 * r, 0.0f, 1.0f);
+  }
+  return out;
+}
+
+/// Calls `visit(i, k, depth behind the wall, brightness)` within 10 mm of the wall.
+template <class Visit>
+void beside_wall(const Work& work, const Volume<float>& relative, const Visit& visit) {
+  constexpr double reach = 10;  // mm
+  const double step = relative.grid.spacing[1];
+  for (int k = 0; k < work.wall.depth.nz; ++k) {
+    for (int i = work.domain.first; i <= work.domain.last; ++i) {
+      const double depth = work.wall.depth.at(i, k);
+      if (std::isnan(depth) || std::isnan(work.domain.skin.at(i, k))) continue;
+      const int last = std::min(int((depth + reach) / step), relative.grid.size[1] - 1);
+      for (int j = std::max(0, int((depth - reach) / step)); j <= last; ++j)
+        visit(i, k, j * step - depth, std::size_t(relative.grid.offset(i, j, k)));
+    }
+  }
+}
+
+/// Median brightness 2-8 mm behind the wall.
+double water_behind(const Work& work, const Volume<float>& relative) {
+  std::vector<float> values;
+  beside_wall(work, relative, [&](int, int, double behind, std::size_t n) {
+    if (behind > 2 && behind < 8) values.push_back(relative.voxels[n]);
+  });
+  return std::max(least_water, median(std::move(values), least_water));
+}
+
+MuscleOverFat muscle_over_fat(const Work& work, const Volume<float>& relative, const Mask& failed) {
+  constexpr double patch = 25;  // mm
+  constexpr std::size_t enough = 60;
+  constexpr float fat_low = 0.6f, fat_high = 1.4f;
+  const int across = std::max(1, int(patch / work.scan.grid.spacing[0])),
+            along = std::max(1, int(patch / work.scan.grid.spacing[2]));
+  const int columns = work.scan.grid.size[0] / across + 1;
+  const std::size_t count = std::size_t(columns) * (work.scan.grid.size[2] / along + 1);
+  std::vector<std::vector<float>> muscle(count), fat(count);
+  beside_wall(work, relative, [&](int i, int k, double behind, std::size_t n) {
+    const std::size_t at = std::size_t(k / along) * columns + i / across;
+    const float r = relative.voxels[n];
+    if (failed.voxels[n]) return;
+    if (behind > 2 && behind < 8) muscle[at].push_back(r);
+    if (behind < -2 && r > fat_low && r < fat_high) fat[at].push_back(r);
+  });
+  std::vector<double> ratios;
+  for (std::size_t n = 0; n < count; ++n) {
+    if (muscle[n].size() < enough || fat[n].size() < enough) continue;
+    ratios.push_back(median(std::move(muscle[n]), 0) / median(std::move(fat[n]), 1));
+  }
+  MuscleOverFat found;
+  found.low = percentile(ratios, 0.05, 0);
+  found.median = percentile(std::move(ratios), 0.5, 0);
+  return found;
+}
+
+constexpr double darkest_skin = 1.05;  // of suppressed fat
+
+/// The wall's level of muscle, in the scan that is shown.
+constexpr double muscle_as_in_t1 = 0.3, gland_as_in_t1 = 0.45;
+
+}  // namespace
+
+bool may_be_suppressed(const FatContrast& contrast) {
+  return !(contrast.skin_to_subcutis > 0) || contrast.skin_to_subcutis > darkest_skin;
+}
+
+std::string refusal_of_skin(const FatContrast& contrast) {
+  return message(
+      "the skin, which holds water, is ", format_fixed(contrast.skin_to_subcutis, 2),
+      " times as bright as the tissue below it (at least ", darkest_skin,
+      " where suppressed fat is told from water): give the chest wall (--chest-wall), or "
+      "a second scan of the same examination that shows it (--also)");
+}
+
+SuppressedFat find_suppressed_wall(Work& work, Progress& progress, Timer& timer) {
+  constexpr int rounds = 3;
+  const Volume<float> scan = work.scan;
+  SuppressedFat fat;
+  for (int round = 0; round < rounds; ++round) {
+    fat.log_level = level_of(work, scan);
+    const Volume<float> relative = relative_to(fat.log_level, scan);
+    // Until a wall is known, the muscle behind it is taken for little brighter than fat, since more
+    // would hide it, and skin says how bright water is.
+    const double water =
+        round == 0 ? brightness_of_skin(work, relative) : water_behind(work, relative);
+    if (round > 0) fat.water = water;
+    find_failed(fat, work, relative, water);
+    work.scan = shown(relative, work.skin_distance, fat.failed,
+                      {fat.water, muscle_as_in_t1, fat.failed_brightness});
+    work.wall = {};
+    work.bias = {};
+    find_wall(work, progress, timer);
+    fat.muscle = muscle_over_fat(work, relative, fat.failed);
+  }
+  return fat;
+}
+
+namespace {
+
+/// Brightness of gland in front of the wall: of the brighter end, since fat is mixed with it.
+double brightness_of_gland(const Work& work, const Volume<float>& relative, const Mask& near_failed,
+                           double muscle) {
+  constexpr double skin = 4, bright_end = 0.97;  // mm
+  std::vector<float> values;
+  const Grid& grid = relative.grid;
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int i = work.domain.first; i <= work.domain.last; ++i) {
+      const double limit = fat_limit(work, i, k);
+      for (int j = 0; j < grid.size[1] && j * grid.spacing[1] < limit; ++j)
+        if (-work.skin_distance.at(i, j, k) > skin && !near_failed.at(i, j, k))
+          values.push_back(relative.at(i, j, k));
+    }
+  }
+  return std::max(muscle, percentile(std::move(values), bright_end, muscle));
+}
+
+/// A scan on any grid as one in which fat is bright, for the separation of gland from fat.
+Volume<float> shown_for_gland(const Volume<float>& scan, const Work& work, const SuppressedFat& fat,
+                              const Shown& as) {
+  const Grid& grid = scan.grid;
+  const Volume<float> relative = relative_to(resampled(fat.log_level, grid), scan),
+                      distance = resampled(work.skin_distance, grid);
+  return shown(relative, distance, resampled_mask(fat.failed, grid), as);
+}
+
+}  // namespace
+
+void show_gland(Work& work, const Volume<float>& scan, Images& images, SuppressedFat& fat) {
+  fat.log_level = level_of(work, scan);
+  const Volume<float> relative = relative_to(fat.log_level, scan);
+  find_failed(fat, work, relative, fat.water);
+  fat.gland = brightness_of_gland(work, relative, wider(fat.failed, by_failed), fat.water);
+  const Shown as{fat.gland, gland_as_in_t1, fat.failed_brightness};
+  work.scan = shown_for_gland(scan, work, fat, as);
+  images.outline = std::move(images.tissue);
+  images.tissue = shown_for_gland(images.outline, work, fat, as);
+  work.wall.muscle_ratio =
+      std::clamp(1 - (1 - gland_as_in_t1) * (fat.muscle.median - 1) / (as.water - 1), 0.2, 0.75);
+}
+
+namespace {
+
+std::string refusal_of_muscle(const MuscleOverFat& muscle) {
+  constexpr double least = 1.2, least_in_patches = 1.0, most = 4.5;
+  if (muscle.median > most)
+    return message("muscle is ", format_fixed(muscle.median, 1),
+                   " times as bright as fat (at most ", most,
+                   " where fat is suppressed), as in the water image of a Dixon scan alone");
+  if (muscle.median >= least && muscle.low >= least_in_patches) return "";
+  return message("muscle is ", format_fixed(muscle.median, 2), " times as bright as fat (at least ",
+                 least, " needed to see the chest wall), ", format_fixed(muscle.low, 2),
+                 " in the twentieth of places where least (at least ", least_in_patches, ")");
+}
+
+}  // namespace
+
+std::string refusal_of(const SuppressedFat& fat) {
+  const std::string muscle = refusal_of_muscle(fat.muscle);
+  if (!muscle.empty()) return muscle;
+  if (fat.failed_ml > 0) {
+    return message("fat is not suppressed in ", std::lround(fat.failed_ml),
+                   " ml (elsewhere muscle is ", format_fixed(fat.muscle.median, 2),
+                   " times as bright as fat)");
+  }
+  if (!(fat.gland > beyond_water * fat.water)) return "";
+  return message("3 % of the breast are more than ", format_fixed(fat.gland / fat.water, 1),
+                 " times as bright as muscle (at most ", beyond_water,
+                 " if they are gland): fat is not suppressed there");
+}
+
+}  // namespace breast

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Scans in which fat is suppressed: shown as one in which fat is bright.
+#pragma once
+
+#include <string>
+
+#include "core/progress.hpp"
+#include "core/report.hpp"
+#include "segment/contrast/evidence.hpp"
+#include "segment/work.hpp"
+
+namespace breast {
+
+/// Brightness of muscle relative to the suppressed fat in front of it, which decides whether the
+/// chest wall can be seen: 2-8 mm behind it, in patches of 25 mm.
+struct MuscleOverFat {
+  double median = 0;  ///< of the patches
+  double low = 0;     ///< fifth percentile of the patches
+};
+
+/// What is known of suppressed fat, on the working grid.
+struct SuppressedFat {
+  Volume<float> log_level;       ///< log brightness of suppressed fat
+  Mask failed;                   ///< where fat is not suppressed
+  double failed_ml = 0;          ///< of that
+  double failed_brightness = 1;  ///< of that fat, relative to suppressed fat; 1 if there is none
+  double water = 1.35;           ///< brightness of muscle, as the wall is sought
+  double gland = 0;              ///< brightness of the breast's bright end, once it is shown
+  MuscleOverFat muscle;
+};
+
+/// Whether fat can be suppressed at all: skin, which holds water, is brighter than the tissue below
+/// it, or too thin for the voxels to be measured.
+bool may_be_suppressed(const FatContrast& contrast);
+/// Says that it cannot.
+std::string refusal_of_skin(const FatContrast& contrast);
+
+/// Finds fat's level, bias and wall. The scan of `work`, in which fat is suppressed, becomes one in
+/// which fat is the bright tissue, and on which all stages run as on a T1-weighted scan.
+SuppressedFat find_suppressed_wall(Work& work, Progress& progress, Timer& timer);
+
+/// Once the wall is known, shows gland instead of muscle as the tissue that holds water: in `work`,
+/// whose working scan was `scan`, and in `images`, whose tissue becomes its outline.
+void show_gland(Work& work, const Volume<float>& scan, Images& images, SuppressedFat& fat);
+
+/// States why the wall cannot be taken from a scan with suppressed fat; empty if it can. Where
+/// muscle is less than 1.2 times as bright as fat, or less bright than fat in some place, the
+/// errors of the wall grow from below one millimetre to centimetres while its confidence stays.
+/// More than 4.5 times, nothing but water is left, which suppression does not reach. Where fat is not
+/// suppressed, it is neither told from gland nor does the level beside it hold.
+std::string refusal_of(const SuppressedFat& fat);
+
+}  // namespace breast
