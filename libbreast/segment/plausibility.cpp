@@ -11,18 +11,17 @@
 
 namespace breast {
 
-double cut_by_view_cm2(const Mask& breast) {
+double cut_by_view_cm2(const Mask& breast, const Mask& seen) {
   const Grid& grid = breast.grid;
   double area = 0;
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int j = 0; j < grid.size[1]; ++j) {
       for (int i = 0; i < grid.size[0]; ++i) {
         if (!breast.at(i, j, k)) continue;
-        const std::array<int, 3> index{i, j, k};
-        for (int d = 0; d < 3; ++d) {
-          const double face = grid.voxel_volume() / grid.spacing[d];
-          if (index[d] == 0) area += face;
-          if (index[d] == grid.size[d] - 1) area += face;
+        for (const auto& s : face_neighbours) {
+          const int a = i + s[0], b = j + s[1], c = k + s[2];
+          if (grid.contains(a, b, c) && (seen.voxels.empty() || seen.at(a, b, c) != 0)) continue;
+          area += grid.voxel_volume() / std::abs(grid.spacing.dot(Vec3(s[0], s[1], s[2])));
         }
       }
     }

@@ -10,7 +10,7 @@
 namespace breast {
 
 /// Cross-section of the breast on the border of the scan's voxels, cm2.
-double cut_by_view_cm2(const Mask& breast);
+double cut_by_view_cm2(const Mask& breast, const Mask& seen);
 
 /// Area of skin (cm2) around which, within 10 mm, both principal radii exceed 250 mm, more than 30
 /// mm in front of the wall. A freely hanging breast has none; one that rests on the coil or the

@@ -47,14 +47,15 @@ Box side_box(const Work& coarse, const Grid& grid, Side side) {
   return box;
 }
 
-Volume<float> cropped(const Volume<float>& volume, const Box& box) {
+template <class Value>
+Volume<Value> cropped(const Volume<Value>& volume, const Box& box) {
   Grid grid = volume.grid;
   grid.origin = volume.grid.to_patient(Vec3(box.first[0], box.first[1], box.first[2]));
   for (int d = 0; d < 3; ++d) grid.size[d] = box.last[d] - box.first[d] + 1;
-  Volume<float> out(grid);
+  Volume<Value> out(grid);
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int j = 0; j < grid.size[1]; ++j) {
-      const float* from = &volume.at(box.first[0], box.first[1] + j, box.first[2] + k);
+      const Value* from = &volume.at(box.first[0], box.first[1] + j, box.first[2] + k);
       std::copy(from, from + grid.size[0], &out.at(0, j, k));
     }
   }
@@ -177,6 +178,23 @@ void divide_by_bias(Work& work, const BiasField& bias) {
 
 namespace {
 
+/// A wall beyond what was scanned is a guess, the worse the farther beyond.
+void doubt_unseen(Work& fine) {
+  if (fine.seen.voxels.empty()) return;
+  const Grid& grid = fine.scan.grid;
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int i = 0; i < grid.size[0]; ++i) {
+      const double depth = fine.wall.depth.at(i, k);
+      if (std::isnan(depth)) continue;
+      int j = std::clamp(int(std::lround(depth / grid.spacing[1])), 0, grid.size[1] - 1);
+      if (fine.seen.at(i, j, k)) continue;
+      while (j > 0 && !fine.seen.at(i, j, k)) --j;
+      fine.wall.confidence.at(i, k) = 0;
+      fine.wall.sigma.at(i, k) = std::max(fine.wall.sigma.at(i, k), depth - j * grid.spacing[1]);
+    }
+  }
+}
+
 /// The body in front of the wall, without air that was taken for it; sets what is enclosed.
 void clear_of_air(Work& fine) {
   const Grid& grid = fine.scan.grid;
@@ -205,6 +223,7 @@ Work on_scan_grid(const Work& coarse, const Images& images, Side side) {
   const Box box = side_box(coarse, images.tissue.grid, side);
   fine.scan = cropped(images.tissue, box);
   if (!images.fat_share.voxels.empty()) fine.fat_share = cropped(images.fat_share, box);
+  if (!images.seen.voxels.empty()) fine.seen = cropped(images.seen, box);
   const Grid& grid = fine.scan.grid;
   const Grid& working = coarse.scan.grid;
   fine.body = coarse.body;
@@ -227,6 +246,7 @@ Work on_scan_grid(const Work& coarse, const Images& images, Side side) {
   fine.wall.confidence = on_columns(coarse.wall.confidence, working, grid, 0);
   fine.wall.sigma = on_columns(coarse.wall.sigma, working, grid, 0);
   fine.wall.muscle_ratio = coarse.wall.muscle_ratio;
+  doubt_unseen(fine);
   clear_of_air(fine);
   fine.domain = wall_domain(fine.body.mask, fine.torso, side == Side::left);
   return fine;

@@ -32,7 +32,6 @@ namespace breast {
 
 namespace {
 
-constexpr double least_roll = 0.1;  // radians: less is the asymmetry of people
 // Skin of a supine breast lies in front of and beside the sternum's; by this much a breast hangs
 // prone.
 constexpr double spread_behind = 40, hanging = 45;  // mm
@@ -41,43 +40,10 @@ constexpr double spread_behind = 40, hanging = 45;  // mm
 // not.
 constexpr double darkest_gland_in_bias = 0.5, least_gland_in_bias = 0.1;
 
-/// What is scanned, in patient order: water and fat of a Dixon scan become their sum.
-Images images_of(const Volume<float>& scan, const SegmentOptions& options) {
-  Images images;
-  images.tissue = in_patient_order(scan);
-  if (!options.fat) {
-    if (options.contrast == Contrast::dixon)
-      throw input_error("a Dixon scan needs its fat image beside its water image");
-    return images;
-  }
-  Dixon dixon = dixon_images(images.tissue, in_patient_order(*options.fat));
-  images.tissue = std::move(dixon.sum);
-  images.fat_share = std::move(dixon.fat_share);
-  return images;
-}
-
 /// The working grid of the images, and the body on it.
 void start_work(Work& work, const Images& images, const SegmentOptions& options) {
   work.scan = on_working_grid(images.tissue);
   work.body = find_body(work.scan, options.side, options.posture);
-}
-
-/// Samples a turned body again until it lies straight, always from the scan itself: skin that a
-/// turned breast hides from the front can make the first angle half of what it should be. Returns
-/// the angle (radians).
-double stand_upright(Work& work, Images& images, const SegmentOptions& options) {
-  Images scanned;
-  double roll = 0;
-  for (int pass = 0; pass < 3; ++pass) {
-    const double more = body_roll(work.body.mask);
-    if (!(std::abs(more) > (pass == 0 ? least_roll : least_roll / 3))) break;
-    if (pass == 0) scanned = std::move(images);
-    roll += more;
-    images.tissue = rolled(scanned.tissue, roll, float(0.5 * work.body.air_level));
-    if (!scanned.fat_share.voxels.empty()) images.fat_share = rolled(scanned.fat_share, roll, 0);
-    start_work(work, images, options);
-  }
-  return roll;
 }
 
 /// What the stages need to know of the body.
@@ -371,6 +337,7 @@ void take_second_scan(Work& work, Images& images, Segmentation& result,
                  .shared_percent = field.percent,
                  .change = {}};
   images.outline = std::move(field.first);
+  images.seen = {};
   images.tissue = std::move(field.second);
   start_work(work, images, options);
   result.debris_ml = work.body.debris_ml;
@@ -545,8 +512,8 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
     const Timer::Scope phase(timer, "body");
     progress.update("body", 0, "");
     images = images_of(scan, options);
+    result.roll_degrees = stand_upright(images, options) * 180 / std::numbers::pi;
     start_work(work, images, options);
-    result.roll_degrees = stand_upright(work, images, options) * 180 / std::numbers::pi;
     result.debris_ml = work.body.debris_ml;
     result.beside_ml = work.body.beside_ml;
     frame_body(work, options);
@@ -561,6 +528,8 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
                             options.posture);
   work.breast = breast_voxels(work.body.mask, work.wall, work.domain, work.torso, work.extent,
                               options.side, options.posture);
+  for (std::size_t n = 0; n < work.seen.voxels.size(); ++n)
+    work.breast.voxels[n] &= work.seen.voxels[n];
   separate_tissue(work, Interior::threshold, result);
   const MisleadingGland gland = misleading_gland(work);
   const bool again = !gland.share.voxels.empty();
@@ -585,7 +554,7 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
   result.nipple_from_extreme = nipple.from_extreme;
   result.points = supine ? side_points(work) : data_points(work);
   result.wall_shift = options.wall_shift;
-  result.cut_by_view_cm2 = cut_by_view_cm2(work.breast);
+  result.cut_by_view_cm2 = cut_by_view_cm2(work.breast, work.seen);
   // A supine breast is flat, and what its side rests on is not gone back to.
   if (!supine) result.flat_skin_cm2 = flat_skin_cm2(work);
   summarise(result, work);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "image/label_volume.hpp"
+#include "segment/segment.hpp"
 #include "segment/tissue/bias.hpp"
 #include "segment/tissue/nipple.hpp"
 #include "segment/tissue/tissue.hpp"
@@ -16,13 +17,19 @@ struct Images {
   Volume<float> tissue;     ///< shows fat, gland and muscle
   Volume<float> outline;    ///< shows the skin; empty where it is `tissue`
   Volume<float> fat_share;  ///< of a Dixon scan: fat over water and fat; otherwise empty
+  Mask seen;                ///< as voxels_with_data(); elsewhere the others are continued
 };
+/// The images of a scan in patient order: water and fat of a Dixon scan become their sum.
+Images images_of(const Volume<float>& scan, const SegmentOptions& options);
+/// Samples the images of a turned body again, along its own axes. Returns the angle (radians).
+double stand_upright(Images& images, const SegmentOptions& options);
 
 /// All volumes have the same grid.
 struct Work {
   Volume<float> scan, ratio, skin_distance;
   Volume<float> brightness;  ///< as ratio (scan over bias), also outside the body
   Volume<float> fat_share;   ///< as in Images
+  Mask seen;                 ///< as in Images
   /// Distance (mm) from the skin that `scan` shows; empty where that is the skin of the body.
   Volume<float> own_distance;
   Body body;

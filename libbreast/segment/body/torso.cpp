@@ -62,7 +62,7 @@ int mirror_column(const HeightField& skin, double spacing, double deepest, doubl
   return std::clamp(best, 0, skin.nx - 1);
 }
 
-/// The skin as seen on a grid turned by `angle` about the middle of each slice (as rolled()).
+/// The skin as seen on a grid turned by `angle` about the middle of each slice (as rolled_grid()).
 HeightField turned(const HeightField& skin, const Grid& grid, double angle) {
   HeightField out(skin.nx, skin.nz, no_depth);
   const double c = elementary::cos(angle), s = elementary::sin(angle), dx = grid.spacing[0];

@@ -127,22 +127,45 @@ Volume<float> resampled(const Volume<float>& coarse, const Grid& fine) {
   return out;
 }
 
-Volume<float> rolled(const Volume<float>& volume, double angle, float outside) {
-  Grid grid = volume.grid;
-  const Vec3 middle = 0.5 * Vec3(grid.size[0] - 1, grid.size[1] - 1, grid.size[2] - 1);
-  const Vec3 centre = grid.to_patient(middle);
+Grid rolled_grid(const Grid& grid, double angle) {
   Mat3 turn = Mat3::Identity();
   turn(0, 0) = turn(1, 1) = elementary::cos(angle);
   turn(1, 0) = elementary::sin(angle);
   turn(0, 1) = -elementary::sin(angle);
-  grid.direction = grid.direction * turn;
-  grid.origin += centre - grid.to_patient(middle);
+  Grid wide = grid;
+  wide.direction = grid.direction * turn;
+  const auto half = [&](int d) { return 0.5 * (grid.size[d] - 1) * grid.spacing[d]; };
+  for (int d = 0; d < 2; ++d) {
+    const double reach = half(d) * std::abs(turn(0, 0)) + half(1 - d) * std::abs(turn(1, 0));
+    // The least that holds the field, with its middle voxel or gap in the place of the old one.
+    wide.size[d] += 2 * int(std::ceil((reach - half(d)) / grid.spacing[d]));
+  }
+  const auto middle = [](const Grid& g) -> Vec3 {
+    return 0.5 * Vec3(g.size[0] - 1, g.size[1] - 1, g.size[2] - 1);
+  };
+  wide.origin += grid.to_patient(middle(grid)) - wide.to_patient(middle(wide));
+  return wide;
+}
+
+Volume<float> on_rolled_grid(const Volume<float>& volume, const Grid& grid) {
   Volume<float> out(grid);
+  const auto& size = volume.grid.size;
+  const Vec3 first = volume.grid.to_index(grid.origin);
+  const Vec3 across = volume.grid.to_index(grid.to_patient(Vec3(1, 0, 0))) - first,
+             along = volume.grid.to_index(grid.to_patient(Vec3(0, 1, 0))) - first;
 #pragma omp parallel for
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int j = 0; j < grid.size[1]; ++j) {
-      for (int i = 0; i < grid.size[0]; ++i)
-        out.at(i, j, k) = float(sample_linear(volume, grid.to_patient(Vec3(i, j, k)), outside));
+      for (int i = 0; i < grid.size[0]; ++i) {
+        const double x = std::clamp(first[0] + i * across[0] + j * along[0], 0.0, size[0] - 1.0),
+                     y = std::clamp(first[1] + i * across[1] + j * along[1], 0.0, size[1] - 1.0);
+        const int a = std::min(int(x), std::max(size[0] - 2, 0)), c = std::min(a + 1, size[0] - 1),
+                  b = std::min(int(y), std::max(size[1] - 2, 0)), d = std::min(b + 1, size[1] - 1);
+        const double near =
+                         volume.at(a, b, k) + (x - a) * (volume.at(c, b, k) - volume.at(a, b, k)),
+                     far = volume.at(a, d, k) + (x - a) * (volume.at(c, d, k) - volume.at(a, d, k));
+        out.at(i, j, k) = float(near + (y - b) * (far - near));
+      }
     }
   }
   return out;

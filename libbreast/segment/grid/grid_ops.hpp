@@ -27,8 +27,10 @@ Grid coarsened_grid(const Grid& grid, const std::array<int, 3>& factor);
 /// border equal those on the border.
 Volume<float> resampled(const Volume<float>& coarse, const Grid& fine);
 
-/// The volume sampled on a grid of the same size rotated by `angle` (radians, i towards j) about
-/// its centre; all tissue keeps its position in the patient.
-Volume<float> rolled(const Volume<float>& volume, double angle, float outside);
+/// The grid rotated by `angle` (radians, i towards j) about its centre, and widened by as many voxels as hold the whole of it.
+Grid rolled_grid(const Grid& grid, double angle);
+/// Values of `volume` at the voxels of a rolled_grid() of its grid, linear in the plane of its
+/// slices; all tissue keeps its position in the patient. Beyond the volume its border continues.
+Volume<float> on_rolled_grid(const Volume<float>& volume, const Grid& grid);
 
 }  // namespace breast

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What was scanned, in the order and along the axes of the body.
+#include <cmath>
+#include <utility>
+
+#include "core/error.hpp"
+#include "segment/body/field_of_view.hpp"
+#include "segment/contrast/dixon.hpp"
+#include "segment/work.hpp"
+
+namespace breast {
+
+namespace {
+
+constexpr double least_roll = 0.1;  // radians: less is the asymmetry of people
+
+/// Which voxels of a rolled grid lie in the field of view and have data.
+Mask seen_from(const Grid& scanned, const Mask& seen, const Grid& grid) {
+  Mask out(grid);
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int j = 0; j < grid.size[1]; ++j) {
+      for (int i = 0; i < grid.size[0]; ++i) {
+        const Vec3 index = scanned.to_index(grid.to_patient(Vec3(i, j, k)));
+        const int a = int(std::lround(index[0])), b = int(std::lround(index[1]));
+        out.at(i, j, k) =
+            scanned.contains(a, b, k) && (seen.voxels.empty() || seen.at(a, b, k) != 0);
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+Images images_of(const Volume<float>& scan, const SegmentOptions& options) {
+  Images images;
+  images.tissue = in_patient_order(scan);
+  images.seen = voxels_with_data(images.tissue);
+  continue_beyond_data(images.tissue, images.seen);
+  if (!options.fat) {
+    if (options.contrast == Contrast::dixon)
+      throw input_error("a Dixon scan needs its fat image beside its water image");
+    return images;
+  }
+  Volume<float> fat = in_patient_order(*options.fat);
+  if (fat.voxels.size() == images.seen.voxels.size()) continue_beyond_data(fat, images.seen);
+  Dixon dixon = dixon_images(images.tissue, fat);
+  images.tissue = std::move(dixon.sum);
+  images.fat_share = std::move(dixon.fat_share);
+  return images;
+}
+
+double stand_upright(Images& images, const SegmentOptions& options) {
+  // Skin that a turned breast hides from the front can make the first angle half of what it should
+  // be: further ones are sought on the scan turned so far.
+  const Volume<float> scanned = on_working_grid(images.tissue);
+  double roll = 0;
+  for (int pass = 0; pass < 3; ++pass) {
+    const Volume<float> turned =
+        pass == 0 ? scanned : on_rolled_grid(scanned, rolled_grid(scanned.grid, roll));
+    const double more = body_roll(find_body(turned, options.side, options.posture).mask);
+    if (!(std::abs(more) > (pass == 0 ? least_roll : least_roll / 3))) break;
+    roll += more;
+  }
+  if (roll == 0) return 0;
+  const Grid upright = rolled_grid(images.tissue.grid, roll);
+  images.seen = seen_from(images.tissue.grid, images.seen, upright);
+  images.tissue = on_rolled_grid(images.tissue, upright);
+  if (!images.fat_share.voxels.empty())
+    images.fat_share = on_rolled_grid(images.fat_share, upright);
+  return roll;
+}
+
+}  // namespace breast
