@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "segment/body/field_of_view.hpp"
 #include "segment/contrast/dixon.hpp"
+#include "segment/grid/noise.hpp"
 #include "segment/work.hpp"
 
 namespace breast {
@@ -14,16 +15,17 @@ namespace {
 
 constexpr double least_roll = 0.1;  // radians: less is the asymmetry of people
 
-/// Which voxels of a rolled grid lie in the field of view and have data.
+/// Which voxels of a grid lie in the field of view and have data.
 Mask seen_from(const Grid& scanned, const Mask& seen, const Grid& grid) {
   Mask out(grid);
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int j = 0; j < grid.size[1]; ++j) {
       for (int i = 0; i < grid.size[0]; ++i) {
         const Vec3 index = scanned.to_index(grid.to_patient(Vec3(i, j, k)));
-        const int a = int(std::lround(index[0])), b = int(std::lround(index[1]));
+        const int a = int(std::lround(index[0])), b = int(std::lround(index[1])),
+                  c = int(std::lround(index[2]));
         out.at(i, j, k) =
-            scanned.contains(a, b, k) && (seen.voxels.empty() || seen.at(a, b, k) != 0);
+            scanned.contains(a, b, c) && (seen.voxels.empty() || seen.at(a, b, c) != 0);
       }
     }
   }
@@ -40,6 +42,7 @@ Images images_of(const Volume<float>& scan, const SegmentOptions& options) {
   if (!options.fat) {
     if (options.contrast == Contrast::dixon)
       throw input_error("a Dixon scan needs its fat image beside its water image");
+    images.noise = disturbing_noise(images.tissue);
     return images;
   }
   Volume<float> fat = in_patient_order(*options.fat);
@@ -50,10 +53,19 @@ Images images_of(const Volume<float>& scan, const SegmentOptions& options) {
   return images;
 }
 
+Volume<float> working_scan(const Images& images) {
+  return on_working_grid(without_noise(images.tissue, images.noise));
+}
+
+Mask seen_on(const Images& images, const Grid& grid) {
+  if (images.seen.voxels.empty()) return {};
+  return seen_from(images.tissue.grid, images.seen, grid);
+}
+
 double stand_upright(Images& images, const SegmentOptions& options) {
   // Skin that a turned breast hides from the front can make the first angle half of what it should
   // be: further ones are sought on the scan turned so far.
-  const Volume<float> scanned = on_working_grid(images.tissue);
+  const Volume<float> scanned = working_scan(images);
   double roll = 0;
   for (int pass = 0; pass < 3; ++pass) {
     const Volume<float> turned =

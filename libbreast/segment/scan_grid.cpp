@@ -6,6 +6,7 @@
 #include "core/elementary.hpp"
 #include "segment/grid/filters.hpp"
 #include "segment/grid/itk_filters.hpp"
+#include "segment/grid/noise.hpp"
 #include "segment/tissue/dark_parts.hpp"
 #include "segment/work.hpp"
 
@@ -228,7 +229,7 @@ Work on_scan_grid(const Work& coarse, const Images& images, Side side) {
   const Grid& working = coarse.scan.grid;
   fine.body = coarse.body;
   fine.body.mask = images.outline.voxels.empty()
-                       ? fine_body(coarse, fine.scan)
+                       ? fine_body(coarse, without_noise(fine.scan, images.noise))
                        : outlined_body(coarse, cropped(images.outline, box));
   fine.skin_distance = signed_distance(fine.body.mask);
   if (!images.outline.voxels.empty()) fine.own_distance = resampled(coarse.skin_distance, grid);
@@ -248,7 +249,7 @@ Work on_scan_grid(const Work& coarse, const Images& images, Side side) {
   fine.wall.muscle_ratio = coarse.wall.muscle_ratio;
   doubt_unseen(fine);
   clear_of_air(fine);
-  fine.domain = wall_domain(fine.body.mask, fine.torso, side == Side::left);
+  fine.domain = wall_domain(fine.body.mask, fine.seen, fine.torso, side == Side::left);
   return fine;
 }
 

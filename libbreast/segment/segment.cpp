@@ -19,6 +19,7 @@
 #include "segment/contrast/suppressed.hpp"
 #include "segment/grid/filters.hpp"
 #include "segment/grid/itk_filters.hpp"
+#include "segment/grid/noise.hpp"
 #include "segment/plausibility.hpp"
 #include "segment/tissue/compact_gland.hpp"
 #include "segment/tissue/lost_edges.hpp"
@@ -42,7 +43,8 @@ constexpr double darkest_gland_in_bias = 0.5, least_gland_in_bias = 0.1;
 
 /// The working grid of the images, and the body on it.
 void start_work(Work& work, const Images& images, const SegmentOptions& options) {
-  work.scan = on_working_grid(images.tissue);
+  work.scan = working_scan(images);
+  work.seen = seen_on(images, work.scan.grid);
   work.body = find_body(work.scan, options.side, options.posture);
 }
 
@@ -50,7 +52,7 @@ void start_work(Work& work, const Images& images, const SegmentOptions& options)
 void frame_body(Work& work, const SegmentOptions& options) {
   work.torso = find_torso(work.body.mask, options.side);
   work.skin_distance = signed_distance(work.body.mask);
-  work.domain = wall_domain(work.body.mask, work.torso, options.side == Side::left);
+  work.domain = wall_domain(work.body.mask, work.seen, work.torso, options.side == Side::left);
   refuse_other_side(work.torso, work.scan.grid, options.side);
 }
 
@@ -338,6 +340,7 @@ void take_second_scan(Work& work, Images& images, Segmentation& result,
                  .change = {}};
   images.outline = std::move(field.first);
   images.seen = {};
+  images.noise = disturbing_noise(field.second);
   images.tissue = std::move(field.second);
   start_work(work, images, options);
   result.debris_ml = work.body.debris_ml;

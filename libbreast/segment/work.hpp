@@ -18,9 +18,14 @@ struct Images {
   Volume<float> outline;    ///< shows the skin; empty where it is `tissue`
   Volume<float> fat_share;  ///< of a Dixon scan: fat over water and fat; otherwise empty
   Mask seen;                ///< as voxels_with_data(); elsewhere the others are continued
+  double noise = 0;         ///< as disturbing_noise() of `tissue`
 };
 /// The images of a scan in patient order: water and fat of a Dixon scan become their sum.
 Images images_of(const Volume<float>& scan, const SegmentOptions& options);
+/// What shows tissue, without disturbing noise, on the working grid.
+Volume<float> working_scan(const Images& images);
+/// Which voxels of a grid have data, by their centres; empty: all.
+Mask seen_on(const Images& images, const Grid& grid);
 /// Samples the images of a turned body again, along its own axes. Returns the angle (radians).
 double stand_upright(Images& images, const SegmentOptions& options);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "core/error.hpp"
 #include "evaluation/overlap.hpp"
@@ -12,8 +13,10 @@
 #include "fixtures/perturbed_scan.hpp"
 #include "fixtures/synthetic_scan.hpp"
 #include "segment/body/body.hpp"
+#include "segment/body/field_of_view.hpp"
 #include "segment/contrast/evidence.hpp"
 #include "segment/grid/itk_filters.hpp"
+#include "segment/grid/noise.hpp"
 #include "segment/plausibility.hpp"
 #include "segment/quality.hpp"
 #include "segment/segment.hpp"
@@ -66,6 +69,92 @@ TEST(SegmentRobustness, FourfoldNoise) {
 TEST(SegmentRobustness, TwiceTheBias) {
   expect_same(testing::more_biased(patient().scan, 2), 0.97, 0.7, 4);
 }
+TEST(SegmentRobustness, NoiseOf15PercentOfTheBrightest) {
+  expect_same(testing::noisy(patient().scan, 0.15), 0.94, 1.5, 6);
+}
+/// Magnitude images: where there is no signal, the noise has a mean of 1.25 of its deviation.
+TEST(Noise, IsTakenFromSignalAndAirAlike) {
+  Grid grid;
+  grid.size = {60, 60, 20};
+  grid.spacing = Vec3(1, 1, 2);
+  constexpr double deviation = 10;
+  Volume<float> scan(grid);
+  for (int k = 0; k < 20; ++k)
+    for (int j = 20; j < 60; ++j)
+      for (int i = 0; i < 60; ++i) scan.at(i, j, k) = i < 30 ? 100 : 20;
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal(0, deviation);
+  for (float& v : scan.voxels) v = float(std::hypot(v + normal(random), normal(random)));
+  const double found = disturbing_noise(scan);
+  EXPECT_NEAR(found, deviation, 0.5);
+  const Volume<float> signal = without_noise(scan, found);
+  const auto mean = [&](int first, int last, int row) {
+    double sum = 0;
+    for (int k = 5; k < 15; ++k)
+      for (int i = first; i < last; ++i) sum += signal.at(i, row, k) / (10.0 * (last - first));
+    return sum;
+  };
+  EXPECT_NEAR(mean(8, 22, 40), 100, 3);
+  EXPECT_NEAR(mean(38, 52, 40), 20, 2);
+  EXPECT_LT(mean(8, 52, 5), deviation);
+  for (float& v : scan.voxels) v += 400;
+  scan.at(0, 0, 0) = 0;
+  EXPECT_EQ(without_noise(scan, 0).voxels, scan.voxels);
+}
+
+/// Sampled along other axes, a scan has no data in its corners; where air has been set to zero it
+/// has.
+TEST(FieldOfView, PaddingIsNoAirAndNoEdgeOfTheBody) {
+  EXPECT_TRUE(voxels_with_data(patient().scan).voxels.empty());
+  Volume<float> dark_air = patient().scan;
+  for (float& v : dark_air.voxels)
+    if (v < 60) v = 0;
+  EXPECT_TRUE(voxels_with_data(dark_air).voxels.empty());
+  Volume<float> padded = testing::oblique(patient().scan, 12);
+  const Mask seen = voxels_with_data(padded);
+  ASSERT_EQ(seen.voxels.size(), padded.voxels.size());
+  std::size_t wrong = 0, missing = 0;
+  for (std::size_t n = 0; n < seen.voxels.size(); ++n) {
+    wrong += (seen.voxels[n] != 0) != (padded.voxels[n] > 0);
+    missing += seen.voxels[n] == 0;
+  }
+  EXPECT_GT(missing, seen.voxels.size() / 50);
+  EXPECT_LT(wrong, missing / 20);
+  continue_beyond_data(padded, seen);
+  EXPECT_TRUE(
+      std::none_of(padded.voxels.begin(), padded.voxels.end(), [](float v) { return v == 0; }));
+}
+
+/// A field of view that ends in front of the ribs at the side: what hangs there is breast all the
+/// same, and its cut is stated.
+TEST(SegmentRobustness, ABreastCutFromItsWallIsLabelledToTheEndOfTheView) {
+  const Volume<float> scan = SyntheticScan::coarse().image();
+  const Segmentation whole = run(scan);
+  const int last = int(scan.grid.to_index(Vec3(0, 36, 0))[1]);
+  const Segmentation result =
+      run(testing::cropped(scan, {0, 0, 0}, {scan.grid.size[0] - 1, last, scan.grid.size[2] - 1}));
+  const LabelVolume &ours = result.labels, &base = whole.labels;
+  double visible = 0, found = 0;
+  for (int k = 0; k < base.grid.size[2]; ++k) {
+    for (int j = 0; j < base.grid.size[1]; ++j) {
+      for (int i = 0; i < base.grid.size[0]; ++i) {
+        const Vec3 p = base.grid.to_patient(Vec3(i, j, k));
+        // The tissue in front of the sternum's skin hangs; behind it there may be flank.
+        if (p[1] > 8 || !is_breast(static_cast<Tissue>(base.tissue[base.grid.offset(i, j, k)])))
+          continue;
+        const Vec3 index = ours.grid.to_index(p);
+        const int a = int(std::lround(index[0])), b = int(std::lround(index[1])),
+                  c = int(std::lround(index[2]));
+        visible += 1;
+        found += ours.grid.contains(a, b, c) &&
+                 is_breast(static_cast<Tissue>(ours.tissue[ours.grid.offset(a, b, c)]));
+      }
+    }
+  }
+  EXPECT_GT(found, 0.98 * visible);
+  EXPECT_GT(result.cut_by_view_cm2, 5);
+}
+
 /// Coils in front of the patient may leave the chest as dark as air, to the back and the sides:
 /// where the chest wall is sought there must be body all the same.
 TEST(Body, ChestAsDarkAsAirIsFilled) {

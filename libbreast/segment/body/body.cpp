@@ -13,27 +13,12 @@
 #include "core/units.hpp"
 #include "segment/body/debris.hpp"
 #include "segment/grid/itk_filters.hpp"
+#include "segment/grid/noise.hpp"
 #include "segment/grid/otsu.hpp"
 
 namespace breast {
 
 namespace {
-
-/// Air: the two front corners (a tenth of the width, the first tenth of the depth), all slices.
-double corner_air_level(const Volume<float>& scan) {
-  const auto& size = scan.grid.size;
-  const int width = std::max(1, size[0] / 10), depth = std::max(1, size[1] / 10);
-  std::vector<float> air;
-  for (int k = 0; k < size[2]; ++k) {
-    for (int j = 0; j < depth; ++j) {
-      for (int i = 0; i < width; ++i) {
-        air.push_back(scan.at(i, j, k));
-        air.push_back(scan.at(size[0] - 1 - i, j, k));
-      }
-    }
-  }
-  return percentile(std::move(air), 0.9);
-}
 
 /// Otsu's threshold of values in a histogram of 256 classes.
 double threshold_of_values(const std::vector<float>& values) {

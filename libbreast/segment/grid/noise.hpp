@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Noise of magnitude images, which is Rician: without a signal it has a mean, too.
+#pragma once
+
+#include "segment/grid/grid_ops.hpp"
+
+namespace breast {
+
+/// 90th percentile of the air: the two front corners (a tenth of the width, the first tenth of the
+/// depth), all slices.
+double corner_air_level(const Volume<float>& scan);
+/// Standard deviation of the noise if it hides what is dim: if it is more than 6 % of bright tissue
+/// and a quarter of the body gives less than 2.5 times as much signal; otherwise 0.
+double disturbing_noise(const Volume<float>& scan);
+/// The signal without its noise of standard deviation `noise`, in the mean over about 4 mm: the
+/// second moment of the signal is that of the image less that of the noise.
+Volume<float> without_noise(const Volume<float>& scan, double noise);
+
+}  // namespace breast
