@@ -62,15 +62,18 @@ Mask seen_on(const Images& images, const Grid& grid) {
   return seen_from(images.tissue.grid, images.seen, grid);
 }
 
-double stand_upright(Images& images, const SegmentOptions& options) {
+double stand_upright(Images& images, const Volume<float>& scanned, const Mask& body,
+                     const SegmentOptions& options) {
   // Skin that a turned breast hides from the front can make the first angle half of what it should
   // be: further ones are sought on the scan turned so far.
-  const Volume<float> scanned = working_scan(images);
+  const auto roll_after = [&](double roll) {
+    if (roll == 0) return body_roll(body);
+    const Volume<float> turned = on_rolled_grid(scanned, rolled_grid(scanned.grid, roll));
+    return body_roll(find_body(turned, options.side, options.posture).mask);
+  };
   double roll = 0;
   for (int pass = 0; pass < 3; ++pass) {
-    const Volume<float> turned =
-        pass == 0 ? scanned : on_rolled_grid(scanned, rolled_grid(scanned.grid, roll));
-    const double more = body_roll(find_body(turned, options.side, options.posture).mask);
+    const double more = roll_after(roll);
     if (!(std::abs(more) > (pass == 0 ? least_roll : least_roll / 3))) break;
     roll += more;
   }

@@ -515,8 +515,10 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
     const Timer::Scope phase(timer, "body");
     progress.update("body", 0, "");
     images = images_of(scan, options);
-    result.roll_degrees = stand_upright(images, options) * 180 / std::numbers::pi;
     start_work(work, images, options);
+    const double roll = stand_upright(images, work.scan, work.body.mask, options);
+    if (roll != 0) start_work(work, images, options);
+    result.roll_degrees = roll * 180 / std::numbers::pi;
     result.debris_ml = work.body.debris_ml;
     result.beside_ml = work.body.beside_ml;
     frame_body(work, options);

@@ -26,8 +26,10 @@ Images images_of(const Volume<float>& scan, const SegmentOptions& options);
 Volume<float> working_scan(const Images& images);
 /// Which voxels of a grid have data, by their centres; empty: all.
 Mask seen_on(const Images& images, const Grid& grid);
-/// Samples the images of a turned body again, along its own axes. Returns the angle (radians).
-double stand_upright(Images& images, const SegmentOptions& options);
+/// Samples the images of a turned body again, along its own axes. `scanned` is its working_scan(),
+/// `body` the body on it. Returns the angle (radians).
+double stand_upright(Images& images, const Volume<float>& scanned, const Mask& body,
+                     const SegmentOptions& options);
 
 /// All volumes have the same grid.
 struct Work {
