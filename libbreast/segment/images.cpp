@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "image/nearest_voxel.hpp"
 #include "segment/body/field_of_view.hpp"
 #include "segment/contrast/dixon.hpp"
 #include "segment/grid/noise.hpp"
@@ -17,15 +18,14 @@ constexpr double least_roll = 0.1;  // radians: less is the asymmetry of people
 
 /// Which voxels of a grid lie in the field of view and have data.
 Mask seen_from(const Grid& scanned, const Mask& seen, const Grid& grid) {
+  const NearestVoxel nearest(scanned);
   Mask out(grid);
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int j = 0; j < grid.size[1]; ++j) {
       for (int i = 0; i < grid.size[0]; ++i) {
-        const Vec3 index = scanned.to_index(grid.to_patient(Vec3(i, j, k)));
-        const int a = int(std::lround(index[0])), b = int(std::lround(index[1])),
-                  c = int(std::lround(index[2]));
+        const std::ptrdiff_t voxel = nearest.at(grid.to_patient(Vec3(i, j, k)));
         out.at(i, j, k) =
-            scanned.contains(a, b, c) && (seen.voxels.empty() || seen.at(a, b, c) != 0);
+            voxel >= 0 && (seen.voxels.empty() || seen.voxels[std::size_t(voxel)] != 0);
       }
     }
   }
