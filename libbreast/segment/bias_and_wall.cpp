@@ -66,7 +66,6 @@ void find_wall(Work& work, Progress& progress, Timer& timer) {
   }
   const Timer::Scope phase(timer, "chest_wall");
   snap_chest_wall(work.wall, work.ratio, work.domain);
-  end_with_view(work.wall, work.domain, work.torso, work.scan.grid.spacing[1]);
 }
 
 void refine_bias(Work& work, const MisleadingGland* gland) {

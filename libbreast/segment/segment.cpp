@@ -52,7 +52,7 @@ void start_work(Work& work, const Images& images, const SegmentOptions& options)
 void frame_body(Work& work, const SegmentOptions& options) {
   work.torso = find_torso(work.body.mask, options.side);
   work.skin_distance = signed_distance(work.body.mask);
-  work.domain = wall_domain(work.body.mask, work.seen, work.torso, options.side == Side::left);
+  work.domain = wall_domain(work.body.mask, work.torso, options.side == Side::left);
   refuse_other_side(work.torso, work.scan.grid, options.side);
 }
 

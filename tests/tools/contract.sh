@@ -130,7 +130,8 @@ grep -q "^$run/mesh.vtkhdf $rows/softer/reference.vtkhdf .*--materials seed2008 
 grep -q folded "$rows/hopeless/supine.json" && [ ! -e "$rows/hopeless/supine.vtkhdf" ] || fail "what needed a solve that ended early has its reason"
 study -q || fail "a second run of a study does nothing"
 sed -i 's/fat=50/fat=60/' "$work/own.tsv"
-study && [ "$(wc -l < "$work/err")" -eq 5 ] && call -q chain || { cat "$work/err"; fail "a changed row is solved again, with what starts from it, and the case is not"; }
+# hopeless has its own scale in the place of that of softer, and stays as it is.
+study && [ "$(wc -l < "$work/err")" -eq 3 ] && call -q chain || { cat "$work/err"; fail "a changed row is solved again, with what starts from it, and the case is not"; }
 pass "rows of a study follow the rules of the chain"
 
 # A stage that was stopped has no record: whatever is asked next is made.

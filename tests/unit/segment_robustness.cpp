@@ -125,36 +125,6 @@ TEST(FieldOfView, PaddingIsNoAirAndNoEdgeOfTheBody) {
       std::none_of(padded.voxels.begin(), padded.voxels.end(), [](float v) { return v == 0; }));
 }
 
-/// A field of view that ends in front of the ribs at the side: what hangs there is breast all the
-/// same, and its cut is stated.
-TEST(SegmentRobustness, ABreastCutFromItsWallIsLabelledToTheEndOfTheView) {
-  const Volume<float> scan = SyntheticScan::coarse().image();
-  const Segmentation whole = run(scan);
-  const int last = int(scan.grid.to_index(Vec3(0, 36, 0))[1]);
-  const Segmentation result =
-      run(testing::cropped(scan, {0, 0, 0}, {scan.grid.size[0] - 1, last, scan.grid.size[2] - 1}));
-  const LabelVolume &ours = result.labels, &base = whole.labels;
-  double visible = 0, found = 0;
-  for (int k = 0; k < base.grid.size[2]; ++k) {
-    for (int j = 0; j < base.grid.size[1]; ++j) {
-      for (int i = 0; i < base.grid.size[0]; ++i) {
-        const Vec3 p = base.grid.to_patient(Vec3(i, j, k));
-        // The tissue in front of the sternum's skin hangs; behind it there may be flank.
-        if (p[1] > 8 || !is_breast(static_cast<Tissue>(base.tissue[base.grid.offset(i, j, k)])))
-          continue;
-        const Vec3 index = ours.grid.to_index(p);
-        const int a = int(std::lround(index[0])), b = int(std::lround(index[1])),
-                  c = int(std::lround(index[2]));
-        visible += 1;
-        found += ours.grid.contains(a, b, c) &&
-                 is_breast(static_cast<Tissue>(ours.tissue[ours.grid.offset(a, b, c)]));
-      }
-    }
-  }
-  EXPECT_GT(found, 0.98 * visible);
-  EXPECT_GT(result.cut_by_view_cm2, 5);
-}
-
 /// Coils in front of the patient may leave the chest as dark as air, to the back and the sides:
 /// where the chest wall is sought there must be body all the same.
 TEST(Body, ChestAsDarkAsAirIsFilled) {

@@ -38,8 +38,10 @@ Volume<float> without_noise(const Volume<float>& scan, double noise) {
 double disturbing_noise(const Volume<float>& scan) {
   constexpr double rayleigh = 2.146;  // its 90th percentile over the standard deviation
   constexpr double least = 0.06, hidden = 2.5, share = 0.25;
-  const double noise = corner_air_level(scan) / rayleigh;
-  if (!(noise > least * percentile(scan.voxels, 0.9))) return 0;
+  const double air = corner_air_level(scan), noise = air / rayleigh;
+  std::vector<float> tissue = scan.voxels;
+  std::erase_if(tissue, [&](float v) { return v < air; });
+  if (tissue.empty() || !(noise > least * percentile(std::move(tissue), 0.9))) return 0;
   std::vector<float> body = without_noise(scan, noise).voxels;
   std::erase_if(body, [&](float v) { return v < noise; });
   return percentile(std::move(body), share, 0) < hidden * noise ? noise : 0;

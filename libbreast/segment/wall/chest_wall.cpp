@@ -129,25 +129,7 @@ HeightField confidence_of(const Volume<float>& ratio, const WallDomain& domain,
 
 }  // namespace
 
-namespace {
-
-/// Depth (mm) of the last voxel of every column that has data.
-HeightField data_end(const Grid& grid, const Mask& seen) {
-  HeightField end(grid.size[0], grid.size[2], (grid.size[1] - 1) * grid.spacing[1]);
-  if (seen.voxels.empty()) return end;
-  for (int k = 0; k < grid.size[2]; ++k) {
-    for (int i = 0; i < grid.size[0]; ++i) {
-      int j = grid.size[1] - 1;
-      while (j > 0 && !seen.at(i, j, k)) --j;
-      end.at(i, k) = j * grid.spacing[1];
-    }
-  }
-  return end;
-}
-
-}  // namespace
-
-WallDomain wall_domain(const Mask& body, const Mask& seen, const TorsoFront& torso, bool left) {
+WallDomain wall_domain(const Mask& body, const TorsoFront& torso, bool left) {
   WallDomain domain;
   domain.left = left;
   const Grid& grid = body.grid;
@@ -156,7 +138,6 @@ WallDomain wall_domain(const Mask& body, const Mask& seen, const TorsoFront& tor
   domain.last = left ? grid.size[0] - 1 : std::min(grid.size[0] - 1, torso.midline + across);
   const double end = (grid.size[1] - 1) * grid.spacing[1];
   domain.deepest = HeightField(grid.size[0], grid.size[2], 0);
-  domain.view_end = data_end(grid, seen);
   for (int k = 0; k < grid.size[2]; ++k) {
     domain.nearest.push_back(std::max(0.0, torso.cleft[k] - 25));
     for (int i = 0; i < grid.size[0]; ++i) {
@@ -164,8 +145,6 @@ WallDomain wall_domain(const Mask& body, const Mask& seen, const TorsoFront& tor
       const double aside = std::abs(i - torso.midline) * grid.spacing[0];
       const double depth = 60 + 0.5 * std::clamp(aside - 90, 0.0, 50.0);
       domain.deepest.at(i, k) = std::min(end, torso.cleft[k] + depth);
-      double& view_end = domain.view_end.at(i, k);
-      if (view_end >= domain.deepest.at(i, k) && domain.deepest.at(i, k) < end) view_end = no_depth;
     }
   }
   domain.skin = HeightField(grid.size[0], grid.size[2], no_depth);
@@ -190,28 +169,6 @@ WallDomain wall_domain(const Mask& body, const Mask& seen, const TorsoFront& tor
   if (domain.last - domain.first < 8)
     throw input_error("no body on the ", left ? "left" : "right", " side");
   return domain;
-}
-
-bool cut_behind(const WallDomain& domain, const TorsoFront& torso, int i, int k) {
-  constexpr double hanging = 10;  // mm in front of the sternum's skin
-  const double skin = domain.skin.at(i, k);
-  return skin < domain.view_end.at(i, k) && skin < torso.cleft[k] - hanging;
-}
-
-void end_with_view(ChestWall& wall, const WallDomain& domain, const TorsoFront& torso,
-                   double voxel) {
-  constexpr double surely_seen = 0.5;  // confidence
-  constexpr double near_end = 12;      // mm: one farther in front was found although it is unclear
-  for (int k = 0; k < wall.depth.nz; ++k) {
-    for (int i = domain.first; i <= domain.last; ++i) {
-      const double end = domain.deepest_seen(i, k);
-      if (!cut_behind(domain, torso, i, k) || wall.confidence.at(i, k) > surely_seen ||
-          !(wall.depth.at(i, k) > end - near_end))
-        continue;
-      wall.depth.at(i, k) = end + voxel;
-      wall.confidence.at(i, k) = 0;
-    }
-  }
 }
 
 ChestWall find_chest_wall(const Volume<float>& ratio, const WallDomain& domain,

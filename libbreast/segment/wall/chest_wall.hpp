@@ -3,7 +3,6 @@
 // half-height crossing.
 #pragma once
 
-#include <cmath>
 #include <optional>
 
 #include "segment/body/body.hpp"
@@ -15,25 +14,15 @@ struct WallDomain {
   int first = 0, last = 0;      ///< columns i, inclusive
   std::vector<double> nearest;  ///< smallest depth of the wall, mm, per slice
   HeightField deepest;          ///< largest depth of the wall, mm, per column
-  HeightField view_end;         ///< mm, where the data end in front of the last depth; else NaN
   HeightField skin;             ///< skin in front of the wall, mm; NaN outside the body
   bool left = true;             ///< the left breast: its medial end is the first column
 
   /// Column `n` from the medial end, and back. Counted from there, a mirror image has the same
   /// columns.
-  /// The largest depth at which a wall could be seen, mm.
-  double deepest_seen(int i, int k) const {
-    return std::fmin(view_end.at(i, k), deepest.at(i, k));  // NaN counts as none
-  }
   int from_medial(int n) const { return left ? first + n : last - n; }
   int to_medial(int i) const { return left ? i - first : last - i; }
 };
-/// `seen` is empty if there are data everywhere.
-WallDomain wall_domain(const Mask& body, const Mask& seen, const TorsoFront& torso, bool left);
-/// True for a column in which a breast hangs in front of the level of the sternum's skin, behind
-/// which the scan ends where a wall would still be sought: the field of view cuts the breast from
-/// its wall.
-bool cut_behind(const WallDomain& domain, const TorsoFront& torso, int i, int k);
+WallDomain wall_domain(const Mask& body, const TorsoFront& torso, bool left);
 
 struct ChestWall {
   /// Depth of the wall, mm, on columns of the domain (all i; NaN outside [first,last]).
@@ -47,10 +36,6 @@ struct ChestWall {
 /// muscle ratio and prior.
 ChestWall find_chest_wall(const Volume<float>& ratio, const WallDomain& domain,
                           const ChestWall* start);
-/// Where the field of view cuts the breast from its wall and none is seen, the wall is where the
-/// data end, behind their last voxel (of `voxel` mm): all that was scanned is breast.
-void end_with_view(ChestWall& wall, const WallDomain& domain, const TorsoFront& torso,
-                   double voxel);
 /// Moves the wall to the nearest bright-to-dark crossing of (1 + muscle)/2 within 3 mm and smooths.
 void snap_chest_wall(ChestWall& wall, const Volume<float>& ratio, const WallDomain& domain);
 

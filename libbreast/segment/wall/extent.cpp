@@ -167,10 +167,6 @@ BreastExtent find_extent(const ChestWall& wall, const WallDomain& domain, const 
   for (int k = 0; k < nz; ++k) {
     for (int i = domain.first; i <= domain.last; ++i) {
       if (!on_side(i, torso, side)) continue;
-      const bool cut = cut_behind(domain, torso, i, k) &&
-                       wall.depth.at(i, k) > domain.deepest_seen(i, k) - 3 &&
-                       posture == Posture::prone;
-      if (cut) extent.columns[std::size_t(k) * nx + i] = 1;
       const bool turns_away = wall.depth.at(i, k) > domain.deepest.at(i, k) - 3;
       if (turns_away && posture == Posture::prone) continue;
       const int a = std::max(i - step, domain.first), b = std::min(i + step, domain.last);
