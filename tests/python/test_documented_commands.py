@@ -28,7 +28,8 @@ NOT_RUN = {
     "export-deck reference.vtkhdf": "for a breast that is held at its wall; tests/tools/calculix.cpp runs it",
     "probe supine.vtkhdf supine-ccx.vtkhdf": "reads CalculiX's solution; tests/tools/calculix.cpp runs it",
     "project-mammogram cc.vtkhdf big.vti": "an image of 0.07 mm takes ten seconds; that of 0.14 mm on the same page is made",
-    "breast run export": "the export of the tutorial, which tests/tools/pacs-tutorial makes and runs",
+    "breast cohort patients --slurm": "asks make, which first builds; tests/tools/slurm.sh submits cohorts",
+    "breast run export": "the export of the tutorial, which tests/tools/tutorial.sh makes and runs",
     "phantom paper.nrrd": "a phantom of full size takes a minute; tests/tools/phantom.cpp makes smaller ones",
 }
 """What a command that is neither run nor planned begins with, and why."""

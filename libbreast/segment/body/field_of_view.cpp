@@ -2,6 +2,7 @@
 #include "segment/body/field_of_view.hpp"
 
 #include <algorithm>
+#include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
 namespace breast {
@@ -53,6 +54,8 @@ bool is_polygon(const cv::Mat& data) {
 }  // namespace
 
 Mask voxels_with_data(const Volume<float>& scan) {
+  // Slices are small, and no thread of OpenCV may be left when a file is written by a fork of the process.
+  cv::setNumThreads(1);
   const auto& size = scan.grid.size;
   const float darkest = *std::min_element(scan.voxels.begin(), scan.voxels.end());
   Mask seen(scan.grid);
