@@ -123,8 +123,11 @@ class DocumentedCommands(unittest.TestCase):
             (cls.clone / name).write_text("variant\tstarts_at\tmechanics\nsofter\treference\t+--scale fat=50\n", encoding="utf-8")
 
     def run_in(self, folder: Path, words: list[str]) -> subprocess.CompletedProcess[str]:
+        """Runs a command; `breast` takes the programs of this build, and builds none."""
         environment = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL", "INSTALLED")}
         environment["PATH"] = f"{small_run.programs}:{environment['PATH']}"
+        if words[0] == "breast":
+            environment["INSTALLED"] = str(small_run.programs)
         return subprocess.run(words, cwd=folder, env=environment, capture_output=True, text=True)
 
     def check(self, folder: Path, words: str, *more: str) -> None:

@@ -15,6 +15,8 @@ awk -v page="$(basename "$page")" '
 grep -q . "$work/script" || { echo "$page: no block marked sh" >&2; exit 1; }
 mkdir "$work/here"
 cd "$work/here"
+# `breast run` takes these programs too, and builds none.
+export INSTALLED="$programs"
 export PATH="$programs:$PATH" OPENBLAS_THREAD_TIMEOUT="${OPENBLAS_THREAD_TIMEOUT:-4}" GOMP_SPINCOUNT="${GOMP_SPINCOUNT:-1000}"
 bash -eu -o pipefail "$work/script" || { echo "$(basename "$page"): the block above failed" >&2; exit 1; }
 echo "$(basename "$page"): $(grep -c '^```sh' "$page") blocks run"

@@ -63,17 +63,17 @@ def _printed(pair: Pair) -> str:
 
 def _write(pair: Pair, folder: Path) -> None:
     """Both files, or neither of them and no folder that was not there before."""
-    files = {folder / "compare.html": compare_page(pair), folder / "compare.tsv": pair.table().text() + "\r\n"}
+    page, table = compare_page(pair), pair.table().text() + "\r\n"
     found = folder.exists()
     try:
         folder.mkdir(exist_ok=True)
     except OSError as error:
         raise Failed(f"could not be made: {error.strerror}", folder) from None
-    for file in files:
-        check_replaceable(file, "--out")
+    for name in ("compare.html", "compare.tsv"):
+        check_replaceable(folder / name, "--out")
     try:
-        for file, text in files.items():
-            write_text(file, text)
+        write_text(folder / "compare.html", page)
+        write_text(folder / "compare.tsv", table)
     except Failed:
         if not found:
             shutil.rmtree(folder, ignore_errors=True)
