@@ -19,8 +19,8 @@ namespace breast {
 
 namespace {
 
-constexpr float whole_fat = 1000;     // its brightness, as it is shown
-constexpr double wall_clearance = 2;  // mm in front of the wall
+constexpr float whole_fat = 1000;  // its brightness, as it is shown
+constexpr double before_wall = 2;  // mm in front of the wall
 // A scale over less than this would turn noise of fat into tissue.
 constexpr double least_water = 1.15;
 
@@ -29,7 +29,7 @@ constexpr double least_water = 1.15;
 double fat_limit(const Work& work, int i, int k) {
   constexpr double behind_sternum = 8;
   const bool known = work.wall.depth.nx > 0 && !std::isnan(work.wall.depth.at(i, k));
-  return known ? work.wall.depth.at(i, k) - wall_clearance : work.torso.cleft[k] + behind_sternum;
+  return known ? work.wall.depth.at(i, k) - before_wall : work.torso.cleft[k] + behind_sternum;
 }
 
 /// Log level of suppressed fat on the working grid.
