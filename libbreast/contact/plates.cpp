@@ -98,8 +98,8 @@ void check_options(const PlateOptions& options) {
 }
 
 /// Plate coordinates that do not depend on its level: width, edge start, far edge, mid-depth.
-/// `breast` is a where the breast proper begins, whose thickness is T0: at the edge, or, if that is the edge of the
-/// image, where plates would stand by default that do not reach the skin of the trunk.
+/// `breast`: the depth (coordinate a) at which the breast begins whose thickness is T0. It is that of the plates' edge, but
+/// between plates at the edge of the image that of plates with the default stand-off, which leave out the skin of the trunk.
 Plate place_in_plane(const HexTopology& mesh, const std::vector<Vec3>& x, const ViewPose& pose,
                      const PlateOptions& options, double& wall_point, double& breast) {
   Plate plate = plate_facing(pose);
@@ -121,8 +121,8 @@ Plate place_in_plane(const HexTopology& mesh, const std::vector<Vec3>& x, const 
   const double automatic = std::min(most_standoff, standoff_part * (along.high - wall_point));
   plate.edge_start = options.edge_at.value_or(
       wall_point + options.image_edge.value_or(options.standoff.value_or(automatic)));
-  breast =
-      std::max(plate.edge_start, options.image_edge ? wall_point + automatic : plate.edge_start);
+  breast = plate.edge_start;
+  if (options.image_edge) breast = std::max(breast, wall_point + automatic);
   const double depth = along.high - plate.edge_start;
   if (!(depth >= least_depth)) {
     throw input_error(

@@ -15,7 +15,7 @@ constexpr int most_corners = 8;          // a rectangle cut by another
 constexpr double off_a_side = 2;         // voxels
 constexpr double least_slices = 0.9;     // of those with padding, that must be polygons
 
-/// Voxels of one slice (`flat`: 255 where it has the darkest value) that are data.
+/// The voxels of one slice that hold data: 255, elsewhere 0. `flat` is 255 where the slice has the darkest value of the scan.
 cv::Mat data_of(const cv::Mat& flat) {
   // Single voxels of noise may be as dark as the padding.
   cv::Mat padding, framed, parts;

@@ -55,8 +55,8 @@ Volume<float> relative_to(const Volume<float>& log_level, Volume<float> scan) {
   return scan;
 }
 
-/// Brightness of skin in front of the sternum's depth: the median, over the surface, of the
-/// brightest within its outer millimetres.
+/// Brightness of the skin that lies in front of the sternum: for each point of the surface the brightest voxel within 3 mm,
+/// and of these the median.
 double brightness_of_skin(const Work& work, const Volume<float>& relative) {
   constexpr double outer = 3;  // mm
   Volume<float> shell(relative.grid);

@@ -37,7 +37,8 @@ class Polynomials {
       }
     }
   }
-  /// Beyond the box the values change little more: a polynomial says nothing there.
+  /// Outside the box, beyond a margin of a twentieth of its size, the values are those of the margin, because a polynomial must
+  /// not be extrapolated.
   Terms at(const Vec3& index) const {
     constexpr double beyond = 1.1;
     std::array<std::array<double, degree + 1>, 3> p;
