@@ -154,7 +154,8 @@ pass "case files are data: checked by key and value, never executed"
 
 # A tree without programs, and a cmake that only delivers the one that is asked for.
 fresh=$work/fresh
-mkdir -p "$fresh"/{libbreast,tools,cmake,build/release/bin} "$work/fake"
+mkdir -p "$fresh"/{libbreast,tools,cmake,python,build/release/bin} "$work/fake"
+export PRESET_BUILD=release  # whatever preset the make uses that runs the tests
 cp -r Makefile.pipeline pipelines CMakeLists.txt CMakePresets.json "$fresh"
 touch "$fresh/build/.packages"
 printf '#!/bin/sh\necho "$*" >> "%s/asked"\ncase "$*" in *"--target cases"*) cp "%s/cases" build/release/bin ;; esac\n' "$work" "$bin" > "$work/fake/cmake"
