@@ -19,6 +19,8 @@ constexpr double longest_slip = 64;
 /// factor that it may give.
 constexpr int most_by_slope = 3;
 constexpr double least_factor = 0.01;
+/// Number of lengths tried between one before a kink and one beyond it.
+constexpr int most_between = 5;
 
 /// Along a direction of negative curvature a shifted step is far too short: it is doubled while the
 /// slope remains as steep as expected.
@@ -51,6 +53,25 @@ double flat_factor(const Appraisal& seen, const NewtonDirection& direction) {
   return std::clamp(slope / (slope + seen.along), least_factor, 0.5);
 }
 
+/// Where a penalty becomes active only after part of the way, the slope suggests a length far before
+/// that place, and steps of this length would creep towards it. Goes on from the accepted length to
+/// where the energy is flat, while it falls as steeply as at the start, and stays in front of `beyond`,
+/// a length past the minimum.
+void approach_kink(NewtonSystem& system, const NewtonDirection& direction,
+                   const LineSearchRule& rule, double beyond, SearchResult& result) {
+  for (int k = 0; k < most_between; ++k) {
+    if (result.trial->seen.along >= -slope_kept * std::abs(direction.slope)) return;
+    const double length = std::sqrt(result.length * beyond);
+    std::optional<Trial> trial = system.attempt(length);
+    if (trial && accepted(trial->seen, direction, rule)) {
+      result.length = length;
+      result.trial = std::move(trial);
+    } else {
+      beyond = length;
+    }
+  }
+}
+
 }  // namespace
 
 SearchResult line_search(NewtonSystem& system, const NewtonDirection& direction,
@@ -59,17 +80,21 @@ SearchResult line_search(NewtonSystem& system, const NewtonDirection& direction,
   // Where the tangent is indefinite the slope is anything but linear.
   const bool by_slope = rule.kinks && !rule.downhill_suffices;
   const int most = rule.most_halvings + (by_slope ? most_by_slope : 0);
-  double length = 1, factor = 0.5;
+  double length = 1, factor = 0.5, beyond = 1;
   for (int i = 0; i <= most; ++i, length *= factor) {
     factor = 0.5;
     std::optional<Trial> trial = system.attempt(length);
     if (!trial) continue;
     result.any_admissible = true;
     if (i >= rule.most_halvings) factor = flat_factor(trial->seen, direction);
-    if (!accepted(trial->seen, direction, rule)) continue;
+    if (!accepted(trial->seen, direction, rule)) {
+      beyond = length;
+      continue;
+    }
     if (rule.downhill_suffices && length == 1) length = go_further(system, direction, *trial);
     result.trial = std::move(trial);
     result.length = length;
+    if (i > rule.most_halvings) approach_kink(system, direction, rule, beyond, result);
     return result;
   }
   return result;

@@ -296,18 +296,18 @@ TEST(CompressionPath, ATargetIsPassedByLittleWhereThePathMayNotEndYet) {
   EXPECT_GE(last_way, 3);
 }
 
-// A penalty that sets in at once, `stiffer` times as stiff as the tangent knows.
+// A penalty that sets in after part of the way, `stiffer` times as stiff as the tangent knows.
 namespace {
 class Kinked final : public NewtonSystem {
  public:
-  explicit Kinked(double stiffer) : stiffer_(stiffer) {}
+  Kinked(double stiffer, double from) : stiffer_(stiffer), from_(from) {}
   Balance assess(const NewtonResult&) override { return {}; }
   NewtonDirection direction(const Balance&) override { return {}; }
   LineSearchRule rule(const NewtonResult&, const Balance&, const NewtonDirection&) const override {
     return {};
   }
   std::optional<Trial> attempt(double length) override {
-    const double along = stiffer_ * length - 1;
+    const double along = length - 1 + (stiffer_ - 1) * std::max(0.0, length - from_);
     Trial trial;
     trial.seen = {std::abs(along), std::abs(along), along};
     return trial;
@@ -315,12 +315,12 @@ class Kinked final : public NewtonSystem {
   void accept(Trial) override {}
 
  private:
-  double stiffer_;
+  double stiffer_, from_;
 };
 
 /// Along a direction of slope 1, from a state with this merit.
-SearchResult search(double stiffer, double merit, bool kinks) {
-  Kinked system(stiffer);
+SearchResult search(double stiffer, double merit, bool kinks, double from = 0) {
+  Kinked system(stiffer, from);
   NewtonDirection direction;
   direction.slope = 1;
   LineSearchRule rule;
@@ -344,6 +344,15 @@ TEST(LineSearch, ShortensToWhereAKinkedEnergyIsFlat) {
   EXPECT_TRUE(halved.any_admissible && !halved.trial);
   EXPECT_TRUE(found.trial.has_value());
   EXPECT_NEAR(found.length, 1.0 / 320, 1e-4);
+}
+
+// The slopes at the start and beyond the kink alone would suggest a hundredth of the way to it.
+TEST(LineSearch, ReachesAKinkThatLiesOnTheWay) {
+  const double kink = 0.005;
+  const SearchResult found = search(1e5, 1, true, kink);
+  ASSERT_TRUE(found.trial.has_value());
+  EXPECT_LT(found.length, kink + 1e-4);
+  EXPECT_GT(found.length, 0.6 * kink);
 }
 
 // How many updates the multipliers need says nothing of how far the plates may move at once.
