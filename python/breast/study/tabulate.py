@@ -2,9 +2,9 @@
 """tabulate: tables, verdicts and pages of runs, from their reports, tables and shapes."""
 from __future__ import annotations
 
-import contextlib
 import os
 from dataclasses import replace
+from importlib.util import find_spec
 from pathlib import Path
 
 from ..command.tool import Run, Tool
@@ -15,8 +15,8 @@ from . import run_tables, paper_tables, experiments, cost, leaveout, cohort, sid
 from .kinds import KINDS, Request, kind_called
 
 _OWN = len(KINDS)
-with contextlib.suppress(ModuleNotFoundError):
-    import breast_validation  # noqa: F401
+if find_spec("breast_validation"):  # in the source tree
+    import breast_validation.kinds  # noqa: F401
 
 
 def calibrated(request: Request) -> Request:

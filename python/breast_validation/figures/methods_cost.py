@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from .inputs import Inputs, need
-from .layout import SMALL, Picture, points
-from .table import Table
+from breast.figures.inputs import Inputs, need
+from breast.figures.layout import SMALL, Picture, points
+from breast.figures.table import Table
 
 _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#333333", "#E69F00", "#CC79A7", "#56B4E9")
 _MARKERS, _STYLES = "osD^vP*", ("-", "--", "-.", ":")

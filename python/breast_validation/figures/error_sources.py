@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from .inputs import Inputs, need
-from .layout import SMALL, Picture, points
-from .table import Table
+from breast.figures.inputs import Inputs, need
+from breast.figures.layout import SMALL, Picture, points
+from breast.figures.table import Table
 
 _MEASURED = {"phantom's truth": ("#0072B2", ""), "finer solution": ("#56B4E9", "///"), "other assumption": ("#E69F00", "..."),
              "same breast again": ("#999999", "xxx")}

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from .inputs import Inputs, need
-from .layout import SMALL, Picture, points
-from .table import Table
+from breast.figures.inputs import Inputs, need
+from breast.figures.layout import SMALL, Picture, points
+from breast.figures.table import Table
 
 _STAGES = {"chain": "nothing\n(the chain)", "segmentation": "labels", "body": "labels, surfaces\nand mesh",
            "tissue": "tissue\non the mesh", "cut": "support of\nthe cut", "discretisation": "(finer mesh,\nnot truth)",
