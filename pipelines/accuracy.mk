@@ -11,9 +11,9 @@ ifneq ($(planning),)
 else
 $(RUN)/accuracy.mk: $(RUN)/labels.vtkhdf $(RUN)/geometry.vtkhdf $(TABULATE) \
   $(HEXMESH) $(BACKWARD) $(FORWARD) $(call changed,accuracy)
-	@$(call forget,accuracy)
+	@rm -f $(accuracy_record)
 	+$(CASES) ladder $(RUN) $(ACCURACY) '$(strip $(ACCURACY_LADDER))' '$(tabulate)' --quiet -- $(MAKE) -f $(PIPELINE) ACCURACY=
-	@$(call record,accuracy)
+	@echo '$(strip $(accuracy_settings))' > $(accuracy_record)
 include $(RUN)/accuracy.mk
 endif
 endif

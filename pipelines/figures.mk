@@ -21,18 +21,14 @@ files_of = $(addprefix $(RUN)/,$1)
 # How the breast moves: STATES equilibria while gravity turns from prone to supine, and while the plates close, each an animated
 # picture. The last equilibrium of each is that of the chain, which stays as it is.
 of_states := $(addprefix $(RUN)/states/,supine.vtkhdf cc.vtkhdf mlo.vtkhdf)
-supine-states_settings = $(supine_settings) --states $(STATES)
-cc-states_settings = $(cc_settings) --states $(STATES)
-mlo-states_settings = $(mlo_settings) --states $(STATES)
+$(foreach shape,supine cc mlo,$(eval $(shape)-states_settings = $$($(shape)_settings) --states $$(STATES)))
 $(RUN)/states/supine.vtkhdf: $(RUN)/reference.vtkhdf $(FORWARD) $(MADE_MATERIALS) $(call changed,supine-states)
 	@mkdir -p $(@D)
 	$(call stage,supine-states) $(FORWARD) $< $@ --posture supine $(supine_options) --states $(STATES) $(common)
-$(RUN)/states/cc.vtkhdf: $(RUN)/reference.vtkhdf $(RUN)/cc.vtkhdf $(COMPRESS) $(MADE_MATERIALS) $(call changed,cc-states)
+$(RUN)/states/cc.vtkhdf $(RUN)/states/mlo.vtkhdf: $(RUN)/states/%.vtkhdf: $(RUN)/reference.vtkhdf $(RUN)/%.vtkhdf $(COMPRESS) $(MADE_MATERIALS) \
+  $$(call changed,$$*-states)
 	@mkdir -p $(@D)
-	$(call of_pressed,cc-states) $(COMPRESS) $< $@ --view CC $(cc_options) --states $(STATES) $(common)
-$(RUN)/states/mlo.vtkhdf: $(RUN)/reference.vtkhdf $(RUN)/mlo.vtkhdf $(COMPRESS) $(MADE_MATERIALS) $(call changed,mlo-states)
-	@mkdir -p $(@D)
-	$(call of_pressed,mlo-states) $(COMPRESS) $< $@ --view MLO $(mlo_options) --states $(STATES) $(common)
+	$(call of_pressed,$*-states) $(COMPRESS) $< $@ --view $(view_$*) $($*_options) --states $(STATES) $(common)
 $(F)/%-states.png: $(RUN)/states/%.vtkhdf $(RENDER)
 	@mkdir -p $(@D)
 	@[ ! -e $< ] || $(RENDER) $(basename $<)-states/state_*.vtkhdf --figure states -o $@

@@ -15,12 +15,7 @@ $(call said,$(shell $(BIN)/cases check $(PIPELINES) $(if $(planning),0,$$PPID) $
 content = $(foreach f,$(wildcard $(filter-out $(RUNS)/%,$1)),$(shell [ ! -f $f ] || sha256sum < $f | cut -c 1-12))
 content_MATERIALS := $(call content,$(call set_of,$(MATERIALS)))
 content_TUMOUR := $(call content,$(TUMOUR))
-content_FAT := $(call content,$(FAT))
-content_ALSO := $(call content,$(ALSO))
-content_CHEST_WALL := $(call content,$(CHEST_WALL))
-content_LANDMARKS := $(call content,$(subst $(comma), ,$(LANDMARKS)))
-content_MAMMOGRAMS := $(call content,$(subst $(comma), ,$(MAMMOGRAMS)))
-content_SUPINE := $(call content,$(SUPINE))
+$(foreach s,FAT ALSO CHEST_WALL LANDMARKS MAMMOGRAMS SUPINE,$(eval content_$s := $(call content,$(subst $(comma), ,$($s)))))
 
 # With landmarks in a second posture, or a supine scan of the same patient, the set MATERIALS is the prior, and the chain runs with the
 # set that `identify` finds.
@@ -30,18 +25,11 @@ override MATERIALS := $(RUN)/identified.tsv
 endif
 # Parts of the model that the user leaves out; studies/leaveout.tsv measures the effect of each.
 whole_set := $(call set_of,$(MATERIALS))
-ifneq ($(filter no-skin,$(LEAVE_OUT)),)
-override HEXMESH_OPTIONS += --skin 0
-endif
-ifneq ($(filter no-backward,$(LEAVE_OUT)),)
-override PRONE := --gravity 0,0,0
-endif
-ifneq ($(filter no-gravity-in-compression,$(LEAVE_OUT)),)
-override COMPRESS_OPTIONS += --gravity off
-endif
-ifneq ($(filter no-gland,$(LEAVE_OUT)),)
-override MATERIALS := $(RUN)/fat-only.tsv
-endif
+left_out = $(if $(filter $1,$(LEAVE_OUT)),$2,$3)
+override HEXMESH_OPTIONS += $(call left_out,no-skin,--skin 0)
+override PRONE := $(call left_out,no-backward,--gravity 0$(comma)0$(comma)0,$(PRONE))
+override COMPRESS_OPTIONS += $(call left_out,no-gravity-in-compression,--gravity off)
+override MATERIALS := $(call left_out,no-gland,$(RUN)/fat-only.tsv,$(MATERIALS))
 
 # Every table, verdict and page is made by tabulate, from reports, tables and shapes.
 tabulate = $(TABULATE) --quiet --pipelines $(PIPELINES)
@@ -95,7 +83,7 @@ reference_settings = $(BACKWARD) $(reference_options) $(its_content)
 supine_options = $(its_model)
 supine_settings = $(FORWARD) $(supine_options) $(its_content)
 # The plates have the distance that the case asks for, or their true positions.
-plates_for = $(if $(its_plates),$(call same_plates,$(TRUTH_AT)-fine-$1.json) $(if $(body_slides),$(wordlist 2,3,$(truth_edge_$1))),$(STOPS))
+plates_for = $(if $(its_plates),$(call plates_of_truth,$1),$(STOPS))
 press = $(addprefix --at-least ,$(AT_LEAST)) $(its_compress) $(its_model)
 cc_options = $(call plates_for,cc) $(press)
 cc_settings = $(COMPRESS) $(if $(its_plates),,$(STOPS)) $(press) $(its_content)

@@ -49,24 +49,21 @@ $(TRUTH_AT)-coarse.vtkhdf $(TRUTH_AT)-coarse-supine.vtkhdf &: $(PHANTOM_MR) $(PH
 	$(call stage,truth-meshes) $(call truth_mesh,coarse,$(TRUTH_COARSE))
 $(TRUTH_AT)-fine.vtkhdf $(TRUTH_AT)-fine-supine.vtkhdf &: $(PHANTOM_MR) $(PHANTOM_MESH) $(TRUTH_AT)-coarse.vtkhdf
 	$(call truth_mesh,fine,$(TRUTH_FINE))
-truth_compress = $(COMPRESS) $< $@ $(call truth_plates,$1) $(addprefix --at-least ,$(AT_LEAST)) $(common)
-define truth_view
-truth-$1_record := $(PHANTOM_TRUTH)/.$(SIDE)-$1.settings
-truth-fine-$1_record := $(PHANTOM_TRUTH)/.$(SIDE)-fine-$1.settings
-truth-$1_settings := $(COMPRESS) $(truth_reduction_$1) $(AT_LEAST) $(truth_edge_$1) $(phantom_settings)
-$(TRUTH_AT)-coarse-$1.vtkhdf: $(TRUTH_AT)-coarse.vtkhdf $(COMPRESS) $$(call changed,truth-$1)
-	$$(call pressed,truth-$1) $$(call truth_compress,$1) --view $2 --reduction $(truth_reduction_$1)
-$(TRUTH_AT)-fine-$1.vtkhdf: $(TRUTH_AT)-fine.vtkhdf $(TRUTH_AT)-coarse-$1.vtkhdf $(COMPRESS)
-	$$(call pressed,truth-fine-$1) $$(call truth_compress,$1) --view $2 $$(call same_plates,$(TRUTH_AT)-coarse-$1.json)
+truth_plates_record = $(PHANTOM_TRUTH)/.$(SIDE)-$1.settings
+truth_plates_settings = $(COMPRESS) $(truth_reduction_$1) $(AT_LEAST) $(truth_edge_$1) $(phantom_settings)
+truth_compress = $(COMPRESS) $< $@ $(call truth_plates,$1) $(addprefix --at-least ,$(AT_LEAST)) $(common) --view $(view_$1)
+$(TRUTH_AT)-coarse-cc.vtkhdf $(TRUTH_AT)-coarse-mlo.vtkhdf: $(TRUTH_AT)-coarse-%.vtkhdf: $(TRUTH_AT)-coarse.vtkhdf $(COMPRESS) \
+  $$(call stale,$$(call truth_plates_record,$$*),$$(call truth_plates_settings,$$*))
+	$(call staged,$(call truth_plates_record,$*),$(call truth_plates_settings,$*),--keep $@) $(call truth_compress,$*) --reduction $(truth_reduction_$*)
+$(TRUTH_AT)-fine-cc.vtkhdf $(TRUTH_AT)-fine-mlo.vtkhdf: $(TRUTH_AT)-fine-%.vtkhdf: $(TRUTH_AT)-fine.vtkhdf $(TRUTH_AT)-coarse-%.vtkhdf $(COMPRESS)
+	$(call staged,$(call truth_plates_record,fine-$*),,--keep $@) $(call truth_compress,$*) $(call same_plates,$(TRUTH_AT)-coarse-$*.json)
 # The chain, compressed between plates with the distance and position of those of the truth.
-$(RUN)/truth-$1.vtkhdf: $(RUN)/reference.vtkhdf $(TRUTH_TABLE) $(COMPRESS)
-	$$(call pressed,truth-$1-of-chain) $(COMPRESS) $$< $$@ --view $2 $$(call same_plates,$(TRUTH_AT)-fine-$1.json) \
-	  $(if $(body_slides),$(wordlist 2,3,$(truth_edge_$1))) $(addprefix --at-least ,$(AT_LEAST)) $(COMPRESS_OPTIONS) $(MECHANICS) $(SUPPORT) $$(common)
-endef
-$(eval $(call truth_view,cc,CC))
-$(eval $(call truth_view,mlo,MLO))
+$(RUN)/truth-cc.vtkhdf $(RUN)/truth-mlo.vtkhdf: $(RUN)/truth-%.vtkhdf: $(RUN)/reference.vtkhdf $(TRUTH_TABLE) $(COMPRESS)
+	$(call pressed,truth-$*-of-chain) $(COMPRESS) $< $@ --view $(view_$*) $(call plates_of_truth,$*) $(addprefix --at-least ,$(AT_LEAST)) \
+	  $(COMPRESS_OPTIONS) $(MECHANICS) $(SUPPORT) $(common)
 $(TRUTH_TABLE): $(PHANTOM_TRUTH)/landmarks.tsv $(TRUTH_MESHES) $(TRUTH_TABLE_TOOL)
 	$(TRUTH_TABLE_TOOL) $< $@ $(TRUTH_MESHES) $(common)
+plates_of_truth = $(call same_plates,$(TRUTH_AT)-fine-$1.json) $(if $(body_slides),$(wordlist 2,3,$(truth_edge_$1)))
 same_plates = --thickness $$($(tabulate) key $1 thickness_mm) --edge-at $$($(tabulate) key $1 edge_at_mm) \
   --middle-at $$($(tabulate) key $1 middle_at_mm) --turn $$($(tabulate) key $1 turn_deg) --lean $$($(tabulate) key $1 lean_deg)
 truth-compressed_settings := $(PROBE)

@@ -20,9 +20,6 @@ attempt = $(call staged,$(@D)/.$1.settings,$($1_settings)) $(CASES) attempt $@ '
 changed = $(call stale,$(call record_file,$1),$($1_settings))
 # $(call prints,STAGE,FILE): the same of a program that prints FILE.
 prints = $(call staged,$(call record_file,$1),$($1_settings),--prints $2)
-# Of a recipe that runs make: the first command forgets, the last records.
-forget = rm -f $(call record_file,$1)
-record = printf '%s\n' $(call quoted,$(strip $($1_settings))) > $(call record_file,$1)
 stage = $(call staged,$(call record_file,$1),$($1_settings))
 pressed = $(call staged,$(call record_file,$1),$($1_settings),--keep $@)
 of_pressed = $(call staged,$(call record_file,$1),$($1_settings),--of '$(filter $(made_of_pressed),$^)')

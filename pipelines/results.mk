@@ -1,8 +1,58 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Results for people: the page of both views, the run for 3D Slicer, expected values, and one self-contained report.
+# What is made of the chain of Makefile.pipeline: displacements, errors against the phantom's truth, the summary; the page of both views,
+# the run for 3D Slicer, expected values, and one self-contained report.
+CHAIN_FILES := $(addprefix $(RUN)/,labels.vtkhdf geometry.vtkhdf mesh.vtkhdf reference.vtkhdf \
+  supine.vtkhdf cc.vtkhdf mlo.vtkhdf cc.vti mlo.vti $(if $(no_tumour),,curve.vtp) $(if $(PAPER),$(if $(no_tumour),lookup.h5 page.html),lookup.h5 page.html))
+
+# Material sets: of the model without gland, in which the law of fat replaces that of fibroglandular tissue, and of a row of Table VIII.
+$(RUN)/fat-only.tsv: $(whole_set)
+$(RUN)/columns.tsv: $(PIPELINES)/materials/seed2008.tsv
+$(RUN)/fat-only.tsv $(RUN)/columns.tsv:
+	@mkdir -p $(@D)
+	$(call table,$(tabulate) set $(basename $(@F)) $<)
+
+# The same with the lateral cut held, which shows the effect of this boundary condition at the landmarks;
+# its discretisation error is not estimated again.
+cut-fixed_settings := $(BACKWARD) $(FORWARD) $(MECHANICS) $(content_MATERIALS)
+$(RUN)/reference-cut-fixed.vtkhdf: $(RUN)/mesh.vtkhdf $(BACKWARD) $(MADE_MATERIALS) $(call changed,cut-fixed)
+	$(call stage,cut-fixed) $(BACKWARD) $< $@ --posture prone $(MECHANICS) --cut fixed --estimate none $(common)
+supine-cut-fixed_settings = $(cut-fixed_settings)
+$(RUN)/supine-cut-fixed.vtkhdf: $(RUN)/reference-cut-fixed.vtkhdf $(FORWARD)
+	$(call stage,supine-cut-fixed) $(FORWARD) $< $@ --posture supine $(MECHANICS) --cut fixed --estimate none $(common)
+
+# Tables come from stdout; a rename makes them complete or absent: $(call table,COMMAND).
+table = $1 > $@.part && mv $@.part $@
+SHOWN := $(addprefix $(RUN)/,mesh.vtkhdf reference.vtkhdf supine.vtkhdf)
+displacements_settings := $(PROBE) $(landmarks)
+$(RUN)/displacements.tsv: $(SHOWN) $(addprefix $(RUN)/,cc.vtkhdf mlo.vtkhdf) $(PROBE) $(call changed,displacements)
+	$(call prints,displacements,$@) $(PROBE) $(filter %.vtkhdf,$^) --landmarks $(landmarks)
+cut_settings := $(displacements_settings)
+$(RUN)/cut.tsv: $(RUN)/supine-cut-fixed.vtkhdf $(RUN)/supine.vtkhdf $(PROBE) $(call changed,cut)
+	$(call prints,cut,$@) $(PROBE) $< --base $(word 2,$^) --landmarks $(landmarks)
+
+# Errors against the phantom's truth (stress-free, prone, supine); a real scan has none.
+ifdef TRUTH
+truth_settings := $(PROBE) $(TRUTH)
+$(RUN)/truth.tsv: $(TRUTH) $(SHOWN) $(PROBE) $(call changed,truth)
+truth-cut-fixed_settings := $(truth_settings)
+$(RUN)/truth-cut-fixed.tsv: $(TRUTH) $(RUN)/mesh.vtkhdf $(RUN)/reference-cut-fixed.vtkhdf $(RUN)/supine-cut-fixed.vtkhdf $(PROBE) \
+  $(call changed,truth-cut-fixed)
+$(RUN)/truth.tsv $(RUN)/truth-cut-fixed.tsv:
+	$(call prints,$(basename $(@F)),$@) $(PROBE) $(filter %.vtkhdf,$^) --truth $(TRUTH)
+endif
+
+# (A breast that slides is held by springs at its cut: there a held cut would be another model.)
+$(RUN)/summary.txt: $(CHAIN_FILES) $(RUN)/displacements.tsv $(if $(slides),,$(RUN)/cut.tsv) \
+  $(if $(TRUTH),$(RUN)/truth.tsv $(if $(body_slides),,$(RUN)/truth-cut-fixed.tsv)) $(FIGURES) \
+  $(TABULATE) $(PIPELINES)/advice.tsv
+	@$(call table,$(tabulate) summary $(RUN) $(if $(TRUTH),$(PHANTOM_MR:.nrrd=.json)))
 
 # ---- pointing at either view draws curve, band and arc in the other -----------------------------------------
 page_options := $(or $(SERIES),0) $(filter no,$(PAGE_SCAN))
+# The derivatives of the compressed shapes, for the bands of curves: of those of the chain, and between the plates of the truth.
+$(foreach v,cc mlo truth-cc truth-mlo,$(RUN)/$v-sensitivity.vtkhdf): $(RUN)/%-sensitivity.vtkhdf: $(RUN)/%.vtkhdf $(RUN)/reference.vtkhdf $(SENSITIVITY)
+	$(call staged,$(RUN)/.$*-sensitivity.settings,$(SENSITIVITY) $(PRONE) $(MECHANICS) $(SUPPORT),$(if $(filter cc mlo,$*),--of $< --spared $@)) \
+	  $(SENSITIVITY) $(RUN)/reference.vtkhdf $< $@ $(PRONE) $(MECHANICS) $(SUPPORT) --table $(basename $@).tsv $(common)
 # Where one of the compressions has no derivatives (augmented Lagrangian, an unstable equilibrium), the page shows curves without bands.
 both_views := $(addprefix $(RUN)/,cc.vtkhdf mlo.vtkhdf)
 derivatives := $(both_views:%.vtkhdf=%-sensitivity.vtkhdf)

@@ -1,21 +1,34 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# What users give, on the command line, in the environment or in a case file, is data. `cases given` refuses in one line a name that is
+# no setting, and every value that make or a shell would read as code, before make expands any of them.
+comma := ,
+define newline
+
+
+endef
+quoted = '$(subst ','\'',$1)'
+# $(call said,$(shell COMMAND)): what the program says; make ends with its message if it refuses.
+said = $(if $(filter 0,$(.SHELLSTATUS)),$1,$(error $(filter-out cases:,$1)$(outdated)))
+outdated = $(if $(if $(INSTALLED),,$(shell find $(SOURCES) -newer $(BIN)/cases)),; \
+  the programs are older than their sources: make -f $(PIPELINE) build)
+
+# $(shell) would end its command at a line break, before `cases` could refuse it.
+$(foreach v,$(given),$(if $(findstring $(newline),$(value $v)),$(error $v: a line break may not stand in it; give a name \
+  without it$(comma) or a link that has such a name (ln -s))))
+$(call said,$(shell $(BIN)/cases given $(PIPELINES) $(foreach v,$(given),$(call quoted,$v=$(value $v))) --quiet 2>&1))
+
+# The lines of a case file, KEY = VALUE, as a makefile that overrides the environment and is overridden by the command line.
+RUNS ?= runs
+include $(if $(CASE_FILE),$(call said,$(shell $(BIN)/cases case-file $(PIPELINES) $(CASE_FILE) $(RUNS)/.make --quiet 2>&1)))
+
 # The settings and their defaults. Another value is given on the command line (make -f Makefile.pipeline MATERIALS=wellman), in a case
-# file, or in the environment; the first of these counts. help.txt says what each does, settings.tsv what it accepts.
+# file, or in the environment; the first of these counts. help.txt says what each does, settings.tsv what it accepts; those of its
+# settings that have no default here are empty.
 
 # ---- the case ----------------------------------------------------------------------------------------------
-PAPER ?=
 PRESET ?= $(if $(PAPER)$(filter $(goals_of_paper),$(goals)),paper,average)
 SIDE ?= left
-MR ?=
-SERIES ?=
 CASE ?= $(if $(phantom),$(PRESET)$(if $(filter right,$(SIDE)),-right),$(scan_name)-$(SIDE))
-FAT ?=
-ALSO ?=
-CHEST_WALL ?=
-LABELS_TRUTH ?=
-LANDMARKS ?=
-SUPINE ?=
-MAMMOGRAMS ?=
 # The paper places its tumour freely, at the margin of the gland; that of the phantom has a known displacement. No tumour is added to a
 # patient's scan unless the user asks for one.
 TUMOUR ?= $(if $(phantom),$(PHANTOM_TRUTH)/tumour-$(SIDE).tsv,none)
@@ -47,15 +60,8 @@ set_of = $(or $(filter $(RUN)/%,$1),$(wildcard $1),$(PIPELINES)/materials/$1.tsv
 rows_in = $(if $(wildcard $1),$(shell awk -F '\t' '/^\#/ { next } !header++ { for (i = 1; i <= NF; i++) at[$$i] = i; next } \
   { print $$at["tissue"] "=" $$at["law"] }' $1))
 slides := $(if $(PAPER),,$(filter wall=support,$(call rows_in,$(call set_of,$(MATERIALS)))))
-WALL ?=
-CUT ?=
-LEAVE_OUT ?=
 PRONE ?= --posture prone
 ELEMENTS ?= 16
-# The default of the programs is q1p0.
-ELEMENT ?=
-# Chooses ELEMENTS and ELEMENT.
-ACCURACY ?=
 ACCURACY_LADDER ?= q1p0-dome-4 q1p0-dome-6 q1p0-dome-8 q1p0-dome-10 q1p0-dome-12 q2p1-dome-8 q1p0-dome-16 q2p1-dome-10 q1p0-dome-20 \
   q2p1-dome-12 q2p1-dome-16
 # A breast that slides does so with the muscle behind it; one that is held needs none. The tissue around it moves with it.
@@ -64,9 +70,6 @@ SURROUNDINGS ?= $(if $(PAPER),,$(if $(slides),16,0))
 # The plates close to the first of these: force of the paddle, N; thickness, mm; reduction of the thickness, percent; mean pressure of the
 # paddle, kPa. If all are empty, as in screening (docs/tools/compress.md). The paper halves the thickness, and a breast whose wall is held
 # has no other limit: Table II is too stiff for a clinical force.
-FORCE ?=
-THICKNESS ?=
-PRESSURE ?=
 REDUCTION ?= $(if $(slides)$(FORCE)$(THICKNESS)$(PRESSURE),,50)
 # A compression that stops early is accepted from this reduction on. Between plates as in the clinic compress judges by what mammograms
 # are like. As printed, elements on the edge of the cuboid fold early (docs/validation/contact.md).
@@ -79,16 +82,10 @@ STATES ?= 13
 # As printed in the paper: cuboid, skin as a layer of elements, plain invariants, free cut, no gravity in compression.
 PRINTED_HEXMESH = --template cuboid --elements $(ELEMENTS) --skin-as layer
 PRINTED_MECHANICS = --materials $(MATERIALS) --invariants plain --element q1p0
-SEGMENT_OPTIONS ?=
-FIT_OPTIONS ?=
 HEXMESH_OPTIONS ?= $(if $(PAPER),$(PRINTED_HEXMESH),--elements $(ELEMENTS) $(addprefix --muscle ,$(filter-out 0,$(MUSCLE))) \
   $(addprefix --surroundings ,$(filter-out 0,$(SURROUNDINGS))))
 MECHANICS ?= $(if $(PAPER),$(PRINTED_MECHANICS),--materials $(MATERIALS) $(addprefix --element ,$(ELEMENT)))
 COMPRESS_OPTIONS ?= $(if $(PAPER),--gravity off --contact al)
-PROJECT_OPTIONS ?=
-PHANTOM_OPTIONS ?=
-SLICER_OPTIONS ?=
-EVALUATE_OPTIONS ?=
 SEGMENT ?= $(BIN)/segment
 FIT_HERMITE ?= $(BIN)/fit-hermite
 HEXMESH ?= $(BIN)/hexmesh
@@ -121,7 +118,6 @@ PAGE_SCAN ?= $(if $(TRUTH),yes,no)
 EXPECTED ?= $(wildcard $(PIPELINES)/expected/$(CASE)$(if $(PAPER),-as-printed).tsv)
 # The PDF is printed by a headless browser (Debian package chromium, which setup does not install).
 CHROMIUM ?= $(shell command -v chromium || command -v chromium-browser || command -v google-chrome)
-STUDY ?=
 COST_POINTS ?= $(cost_variants)
 COST_FINEST ?= q2p1-dome-24
 FINDINGS_FINEST ?= 10
@@ -139,21 +135,12 @@ COMPARE_SCENES ?= block-8-poly-1000-C3D8I block-8-poly-1000-C3D8 block-8-mr-100-
   block-8-mr-1000-C3D8I block-4-poly-1000-C3D20R breast-1000-C3D8I block-16-poly-1000-C3D8I
 COMPARE_PRESSED ?= pressed-8-10000-C3D8I-60-contact pressed-8-10000-C3D8I-50-prescribed \
   pressed-16-10000-C3D8I-60-contact
-POPULATION_SCANS ?=
 POPULATION_ELEMENTS ?= 10
 POPULATION_MATERIALS ?= invivo
-MINUTES ?=
 FUZZ_MINUTES ?= 240
 FUZZ_INPUTS ?= 2000
 FAULT_ALLOCATIONS ?= 200
 
 # ---- cohorts -----------------------------------------------------------------------------------------------
-COHORT ?=
 CLUSTER ?= local
-CLUSTER_PARTITION ?=
-CLUSTER_ACCOUNT ?=
-CLUSTER_TIME ?=
-CLUSTER_MEMORY ?=
 CLUSTER_CORES ?= 1
-CLUSTER_OPTIONS ?=
-RESUME ?=

@@ -15,17 +15,19 @@ if [ ${#missing[@]} -eq 0 ]; then
   echo "set-up: all packages for $what are installed" >&2
   exit 0
 fi
-install=(apt-get install -y --no-install-recommends "${missing[@]}")
+# A fresh machine often installs something itself at first: its lock is waited for.
+apt=(apt-get -o DPkg::Lock::Timeout=300)
+install=("${apt[@]}" install -y --no-install-recommends "${missing[@]}")
 if [ "$(id -u)" -eq 0 ]; then
   as_root=()
 elif command -v sudo >/dev/null && sudo -n true 2>/dev/null; then
   as_root=(sudo -n)
 else
   echo "set-up: these Debian packages are missing and this account may not install them. As root:" >&2
-  echo "  apt-get update && ${install[*]}" >&2
+  echo "  ${apt[*]} update && ${install[*]}" >&2
   exit 1
 fi
 echo "set-up: installing ${missing[*]}" >&2
 export DEBIAN_FRONTEND=noninteractive
-"${as_root[@]}" apt-get update -q >&2
+"${as_root[@]}" "${apt[@]}" update -q >&2
 "${as_root[@]}" "${install[@]}" >&2

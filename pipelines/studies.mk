@@ -23,7 +23,6 @@ study_rules := $(RUNS)/.make/$(notdir $(RUN))-studies.mk
 $(call said,$(shell $(CASES) studies $(study_rules) $(PIPELINE) $(RUN) 'supine $(if $(no_tumour),cc mlo,curve)' '$(tabulate) place' \
   $(foreach c,$(study_columns),'@$c=$(strip $(its_$c))') '{tumour={tumour}' $(foreach p,$(placeholders),'{$p=$(strip $($p))') \
   $(tables_of_studies) --quiet 2>&1))
-.SECONDEXPANSION:
 include $(study_rules)
 
 # What a cell without a leading + leaves out is said before anything is solved.
@@ -32,3 +31,59 @@ $(if $(filter study,$(MAKECMDGOALS)),$(if $($(study_name)_drops),))
 study: $(addprefix $(call study_dir,),$(addsuffix .tsv,$(study_name)))
 	$(if $(STUDY),,$(error study: no study is named; give a table of variants with STUDY=FILE.tsv$(comma) or one of $(studies)))
 	@cat $<
+
+# ---- what each part is worth -------------------------------------------------------------------------------
+# The change at the landmarks and on the MLO curve in mm, and the CPU time saved (studies/leaveout.tsv); then, for each
+# question, the least model that stays within LEAVEOUT_MM, solved and measured.
+LEAVEOUT := $(RUN)/leaveout
+LEAVEOUT_PARTS := $(filter no-%,$(leaveout_variants))
+LEAVEOUT_QUESTIONS := surgery matching
+leaveout: $(LEAVEOUT)/table.tsv $(LEAVEOUT)/recommendation.tsv
+	@cat $^
+$(LEAVEOUT)/table.tsv: $(call results,leaveout,$(LEAVEOUT_VARIANTS),supine curve) $(RUN)/curve.vtp $(RUN)/supine.vtkhdf $(TABULATE)
+	@mkdir -p $(@D)
+	$(call table,$(tabulate) leaveout $(RUN) $(LEAVEOUT_VARIANTS))
+# The parts a question can do without are known when the table is: this makefile once more, from the case's labels and geometry.
+least := $(LEAVEOUT_QUESTIONS:%=$(call study_dir,leaveout)/least-%/curve.tsv)
+least_record = $(LEAVEOUT)/.least-$1.settings
+$(least): $(call study_dir,leaveout)/least-%/curve.tsv: $(LEAVEOUT)/table.tsv $(TABULATE) $$(call stale,$$(call least_record,$$*),$(LEAVEOUT_MM))
+	@rm -f $(call least_record,$*)
+	mkdir -p $(@D) && cp -p $(addprefix $(RUN)/,labels.vtkhdf points.vtp labels.json geometry.vtkhdf geometry.json .labels.settings .geometry.settings) $(@D)
+	+$(MAKE) -f $(PIPELINE) RUN=$(@D) MR=$(MR) $(addprefix TUMOUR=,$(TUMOUR)) MATERIALS=$(or $(prior_set),$(MATERIALS)) \
+	  LEAVE_OUT="$$($(tabulate) least $(LEAVEOUT)/table.tsv $* $(LEAVEOUT_MM) $(LEAVEOUT_PARTS))" chain
+	@echo $(LEAVEOUT_MM) > $(call least_record,$*)
+	@touch $@
+$(LEAVEOUT)/recommendation.tsv: $(least) $(TABULATE)
+	$(call table,$(tabulate) recommendation $(RUN) $(LEAVEOUT_MM) $(LEAVEOUT_PARTS))
+
+# ---- what the chest wall's own uncertainty does ------------------------------------------------------------
+# The whole chain with the wall of studies/wall.tsv, and how far the predictions move.
+WALL_SHIFTS := $(RUN)/wall
+WALL_VARIANTS := $(wall_variants)
+wall-sensitivity: $(WALL_SHIFTS)/table.tsv
+$(WALL_SHIFTS)/table.tsv: $(call results,wall,$(WALL_VARIANTS),supine curve) $(RUN)/supine.vtkhdf $(RUN)/curve.vtp \
+  $(TABULATE)
+	@mkdir -p $(@D)
+	$(call table,$(tabulate) wall $(RUN) $(WALL_VARIANTS))
+	@cat $@
+# Derivatives by stiffness, plates and chest wall in one file a view, and the band they give the tumour's curve.
+$(RUN)/cc-band.vtkhdf $(RUN)/mlo-band.vtkhdf: $(RUN)/%-band.vtkhdf: $(RUN)/%-sensitivity.vtkhdf $(call results,wall,$(WALL_VARIANTS),curve) $(DIFFERENCE)
+	$(DIFFERENCE) $< $(foreach v,$(WALL_VARIANTS),$(call study_dir,wall/$v)/$*.vtkhdf) $@ --parameter chest_wall $(common)
+$(RUN)/band.tsv: $(RUN)/cc-band.vtkhdf $(RUN)/mlo-band.vtkhdf $(CC2MLO)
+	$(CC2MLO) $(wordlist 1,2,$^) $(RUN)/band.vtp --landmark tumour --band --table $@ --curve-table $(RUN)/band-curve.tsv \
+	  $(common)
+band: $(RUN)/band.tsv
+	@sed -n '/"band"/,/}/p' $(RUN)/band.json
+
+# ---- error against run time --------------------------------------------------------------------------------
+# The error is the landmarks' distance to the finest solution (COST_FINEST) of the same geometry, stress-free and supine.
+COST := $(RUN)/cost
+cost: $(COST)/cost.tsv $(COST)/cost.png
+	@cat $<
+$(COST)/cost.tsv: $(call results,cost,$(sort $(COST_POINTS) $(COST_FINEST)),supine) $(TABULATE)
+	@mkdir -p $(@D)
+	$(call table,$(tabulate) cost $(call study_dir,cost) $(COST_FINEST) $(COST_POINTS))
+$(COST)/cost.png: $(COST)/cost.tsv $(RENDER)
+	$(call plot,cost)
+
+.PHONY: leaveout wall-sensitivity band cost

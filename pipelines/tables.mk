@@ -34,14 +34,10 @@ tables: $(TABLE_FILES)
 tables_settings := $(MATERIAL_TABLE) $(content_MATERIALS)
 $(TABLE_FILES) &: $(sort $(foreach t,$(TABLE_NAMES),$(of_$t))) $(wildcard $(PIPELINES)/paper/*.tsv) $(TABULATE) $(call changed,tables)
 	$(call stage,tables) $(tabulate) tables $(RUN) $(MATERIAL_TABLE) $(TABLE_NAMES)
-# One table alone, after the solves that it needs: table8 and conclusions are judged from Tables III to VI.
+# One table alone, after the solves that it needs: table8 is judged from Tables III to VI.
 first_table8 := table3 table4 table5 table6
-table2 table3 table4 table5 table6 table7 table8 findings: $(TABULATE)
+single := table2 table3 table4 table5 table6 table7 table8 findings
+$(single): $$(of_$$@) $(TABULATE)
 	$(tabulate) tables $(RUN) $(MATERIAL_TABLE) $(filter $(foreach t,$(first_$@) $@,$t $t-as-printed),$(TABLE_NAMES))
 	@cat $(TABLES)/$@.tsv
-$(foreach t,table2 table3 table4 table5 table6 table7 table8 findings,$(eval $t: $(of_$t)))
-.PHONY: tables table2 table3 table4 table5 table6 table7 table8 findings
-
-$(RUN)/columns.tsv: $(PIPELINES)/materials/seed2008.tsv
-	@mkdir -p $(@D)
-	$(call table,$(tabulate) set columns $<)
+.PHONY: tables $(single)

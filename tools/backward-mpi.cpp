@@ -18,7 +18,7 @@ namespace {
 struct Choices {
   std::filesystem::path mesh, reference;
   GravityChoices gravity{"prone", {}};
-  MechanicsChoices mechanics{.default_set = default_material_set};
+  MechanicsChoices mechanics{{}, default_material_set};
 };
 
 void declare(Tool& tool, Choices& c) {

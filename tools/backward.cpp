@@ -17,7 +17,7 @@ namespace {
 struct Choices {
   std::filesystem::path mesh, reference;
   GravityChoices gravity{"prone", {}};
-  MechanicsChoices mechanics{.default_set = default_material_set};
+  MechanicsChoices mechanics{{}, default_material_set};
   std::string estimate = "step";
 };
 

@@ -2,25 +2,17 @@
 // The mechanics options that backward, forward and compress share, as given on the command line.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/tool.hpp"
+#include "core/mechanics_texts.hpp"
 
 namespace breast {
 
-/// The parts of the model that the command line gives; empty: not given.
-struct MechanicsChoices {
-  std::string default_set = {};  ///< material set for a file that states no model; empty: none
-  std::string materials = {};    ///< name of a set, or a TSV file
-  std::vector<std::string> scale = {};  ///< "TISSUE=PERCENT", checked in form only
-  std::string element = {};             ///< q1p0 | q2p1
-  std::string invariants = {};          ///< isochoric | plain
-  std::string bulk_ratio = {};          ///< K/μ, or "incompressible"
-  std::string wall = {}, cut = {};
-  std::optional<double> skin_compression = {}, skin_smoothing = {}, skin_prestretch = {};
-  std::string solver = "auto";    ///< auto | direct | multigrid
+/// The parts of the model that the command line gives; scales are checked in form only.
+struct MechanicsChoices : MechanicsTexts {
+  std::string default_set = {};   ///< material set for a file that states no model; empty: none
   bool keep_unconverged = false;  ///< write the file even if not converged, with this status
 };
 

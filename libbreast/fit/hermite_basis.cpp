@@ -52,18 +52,6 @@ PatchWeights patch_weights(int nu, int nv, const Vec2& st) {
   return w;
 }
 
-std::vector<Vec3> sheet_dofs(const HermiteSheet& sheet) {
-  std::vector<Vec3> dofs;
-  dofs.reserve(4 * sheet.nodes.size());
-  for (const auto& n : sheet.nodes) {
-    dofs.push_back(n.x);
-    dofs.push_back(n.scale_1 * n.x_1);
-    dofs.push_back(n.scale_2 * n.x_2);
-    dofs.push_back(n.scale_1 * n.scale_2 * n.x_12);
-  }
-  return dofs;
-}
-
 void set_sheet_dofs(HermiteSheet& sheet, const std::vector<Vec3>& dofs) {
   const auto chord = [&](int i, int j, int di, int dj) {
     double sum = 0;

@@ -20,10 +20,9 @@ struct PatchWeights {
 
 PatchWeights patch_weights(int nu, int nv, const Vec2& st);
 
-/// Conversion between the sheet's nodes and its degrees of freedom, node by node (4 vectors each).
-/// Writing sets scale_1 and scale_2 to the mean chord length of the adjacent patches (mm), so that
-/// x_1 and x_2 are close to unit vectors.
-std::vector<Vec3> sheet_dofs(const HermiteSheet& sheet);
+/// Sets the sheet's nodes from its degrees of freedom, node by node (x, and the derivatives by u, v
+/// and both in patch coordinates): scale_1 and scale_2 become the mean chord length of the adjacent
+/// patches (mm), so that x_1 and x_2 are close to unit vectors.
 void set_sheet_dofs(HermiteSheet& sheet, const std::vector<Vec3>& dofs);
 
 /// Second derivatives of a sheet (discontinuous across patches).

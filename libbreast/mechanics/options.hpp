@@ -2,11 +2,10 @@
 // The options that all mechanics tools share, and their names on a command line.
 #pragma once
 
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "core/mechanics_texts.hpp"
 #include "material/material_set.hpp"
 #include "mechanics/supports/support.hpp"
 #include "surface/level_surface.hpp"
@@ -38,17 +37,6 @@ struct MechanicsOptions {
   bool seek_remedy = true;
 };
 
-/// The mechanics options as texts. What is empty is left as it is.
-struct MechanicsTexts {
-  std::string materials = {};           ///< set or file
-  std::vector<std::string> scale = {};  ///< "TISSUE=PERCENT"
-  std::string element = {}, invariants = {};
-  std::string bulk_ratio = {};  ///< K/μ, or "incompressible"
-  std::string wall = {}, cut = {}, solver = "auto";
-  std::optional<double> skin_compression = {}, skin_smoothing = {},
-                        skin_prestretch = {};  ///< per cent, -, per cent
-};
-
 /// The supports of wall and cut with which the material set of the options was identified; unchanged
 /// where the set has none. Throws Error (input) for a text that stands for no support.
 void take_supports_of_set(MechanicsOptions& options);
@@ -69,16 +57,6 @@ void scale_model(MechanicsOptions& options, const std::string& parameter, double
 /// "multigrid". A cut that carries the tissue beyond it keeps only its springs where the wall that is
 /// given has none. Throws Error (input) for any other text, and if there is no material set at all.
 MechanicsOptions mechanics_options(const MechanicsTexts& texts, MechanicsOptions model = {});
-
-/// The same from the choices of a command line: any struct with members of these names, since the
-/// struct of the tools belongs to a layer that this one does not include.
-template <class Choices>
-MechanicsOptions mechanics_options(const Choices& c, MechanicsOptions model = {}) {
-  return mechanics_options(
-      MechanicsTexts{c.materials, c.scale, c.element, c.invariants, c.bulk_ratio, c.wall, c.cut,
-                     c.solver, c.skin_compression, c.skin_smoothing, c.skin_prestretch},
-      std::move(model));
-}
 
 /// "incompressible" (0) or a ratio of bulk to shear modulus from 1 to 1e9. Throws Error (input) for
 /// anything else.

@@ -59,10 +59,6 @@ void Constraints::set(int node, const NodeConstraint& constraint) {
   }
 }
 
-void Constraints::release(int node) {
-  if (index_[node] >= 0) list_[index_[node]].held = {false, false, false};
-}
-
 void Constraints::zero_increments() {
   for (NodeConstraint& c : list_) c.increment.setZero();
 }

@@ -31,7 +31,6 @@ class Constraints {
   /// plane, a sliding surface). Nothing changes if the normal has no freedom left.
   void hold_along(int node, const Vec3& normal, double increment = 0);
   void set(int node, const NodeConstraint& constraint);
-  void release(int node);
 
   int nodes() const { return int(index_.size()); }
   /// The constraint of a node; null if the node is free.

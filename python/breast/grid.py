@@ -2,6 +2,7 @@
 """A regular grid of voxels in the patient's frame."""
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -47,19 +48,27 @@ class Grid:
         Within half a voxel beyond the outermost centres the border's value holds; farther away it is `outside`.
         """
         at = self.to_index(points)
-        size = np.array(self.size)
-        inside = ((at >= -0.5) & (at <= size - 0.5)).all(1)
-        at = np.clip(at[inside], 0, size - 1)
-        low = np.minimum(at.astype(np.int64), np.maximum(size - 2, 0))
-        t = at - low
-        values = np.zeros(len(at))
+        inside = ((at >= -0.5) & (at <= np.array(self.size) - 0.5)).all(1)
+        result = np.full(len(inside), float(outside))
+        result[inside] = self._interpolated([voxels], at[inside])[0]
+        return result
+
+    def clamped(self, fields: Sequence[np.ndarray], points: np.ndarray) -> list[np.ndarray]:
+        """The same (...) of several fields at points (..., 3); beyond the border the border's value."""
+        values = self._interpolated(fields, self.to_index(points.reshape(-1, 3)))
+        return [field.reshape(points.shape[:-1]) for field in values]
+
+    def _interpolated(self, fields: Sequence[np.ndarray], at: np.ndarray) -> list[np.ndarray]:
+        last = np.array(self.size) - 1
+        at = np.clip(at, 0, last)
+        low = np.minimum(at.astype(np.int64), np.maximum(last - 1, 0))
+        t, sums = at - low, [np.zeros(len(at)) for _ in fields]
         for corner in np.ndindex(2, 2, 2):
             weight = np.where(corner, t, 1 - t).prod(1)
-            i, j, k = np.minimum(low + corner, size - 1).T
-            values += weight * voxels[k, j, i]
-        result = np.full(len(inside), float(outside))
-        result[inside] = values
-        return result
+            i, j, k = np.minimum(low + corner, last).T
+            for total, field in zip(sums, fields):
+                total += weight * field[k, j, i]
+        return sums
 
     def nearest(self, voxels: np.ndarray, points: ArrayLike, outside: int) -> np.ndarray:
         """Values of the voxels that hold points (n, 3), LPS mm; `outside` beyond the grid. For labels."""

@@ -1,5 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Checks of the bands of the matched curves, with benchmark programs that are not installed.
+# The matching between views, compared with the phantom's truth (made by the target `truth`, which takes many minutes), and checks of its
+# bands with benchmark programs that are not installed.
+
+# If the material set contains uncertainties, they replace the priors of softness and supports.
+band_set = $(if $(filter %=uncertainty,$(call rows_in,$(MATERIAL_TABLE))),$(MATERIALS))
+# matching.tsv: the chain from the MR; matching-true-mesh.tsv: the true body on as many elements as the chain's.
+# Both are read against the true body on eight times as many.
+$(RUN)/matching.tsv: $(RUN)/truth-cc-sensitivity.vtkhdf $(RUN)/truth-mlo-sensitivity.vtkhdf $(TRUTH_TABLE) $(CC2MLO)
+	$(CC2MLO) $(wordlist 1,2,$^) $(basename $@).vtp --truth $(TRUTH_TABLE) --band $(addprefix --materials ,$(band_set)) \
+	  --table $@ $(common)
+$(RUN)/matching-true-mesh.tsv: $(TRUTH_TABLE) $(CC2MLO)
+	$(CC2MLO) $(TRUTH_AT)-coarse-cc.vtkhdf $(TRUTH_AT)-coarse-mlo.vtkhdf $(basename $@).vtp \
+	  --truth $(TRUTH_TABLE) --table $@ $(common)
+matching: $(RUN)/matching.tsv $(RUN)/matching-true-mesh.tsv
+	@for table in $(basename $^); do echo "$$table.tsv"; cat $$table-summary.tsv; done
+.PHONY: matching
 
 # The band is compared with repeated solves of the chain with parameters drawn from the priors, on a coarse mesh of the case.
 $(RUN)/band-check-mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $(HEXMESH)

@@ -9,12 +9,12 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "core/text/words.hpp"
 #include "fixtures/analytic_mesh.hpp"
 #include "fixtures/chain_files.hpp"
 #include "fixtures/run_tool.hpp"
 #include "fixtures/shapes.hpp"
 #include "fixtures/synthetic_scan.hpp"
+#include "fixtures/words.hpp"
 #include "io/markups_file.hpp"
 #include "io/segmentation_file.hpp"
 #include "io/volume_file.hpp"

@@ -6,7 +6,8 @@ import unittest
 import numpy as np
 
 try:
-    from breast.figures import budget, colours, cost, error_sources, methods_cost
+    from breast.figures import colours, cost
+    from breast_validation.figures import budget, error_sources, methods_cost
     from matplotlib.colors import to_rgb
 except ImportError as error:
     raise unittest.SkipTest(f"figures need python3-matplotlib ({error})") from None

@@ -5,7 +5,7 @@ import unittest
 
 import small_run
 from breast.errors import BreastError
-from breast.study.error_sources import error_sources, methods_cost
+from breast_validation.error_sources import error_sources, methods_cost
 from in_folder import InFolder
 
 TABLES = small_run.source / "docs/tables"

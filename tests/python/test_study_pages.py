@@ -9,12 +9,12 @@ import unittest
 from breast.errors import BreastError
 from breast.study.advice import Advice, Warned, gather, read_advice
 from breast.study.cohort import cohort_cost, cohort_table, read_cases
-from breast.study.documents import markdown_table, run_line, with_run, with_tables, wrong_numbers
-from breast.study.same_scan import flag_correlations, flag_table, same_scan_table, spearman
 from breast.study.sides import side_table
 from breast.study.stage_report import StageReport, failure_of, posture_failure_of
 from breast.study.summary import _curve_text, aligned, folded
 from breast.study.table import Table
+from breast_validation.documents import markdown_table, run_line, with_run, with_tables, wrong_numbers
+from breast_validation.same_scan import flag_correlations, flag_table, same_scan_table, spearman
 from study_files import InFolder, table_of
 
 try:

@@ -16,9 +16,9 @@ class Tabulate(InFolder):
         self.write("damaged.json", '{"status": "conv')
         self.write("ragged.tsv", "a\tb\n1\n")
         for line, says in (
-                ("sumary x", "did you mean 'summary'?"), ("slopes x", "needs 4"), ("truth a b", "takes 1"),
+                ("sumary x", "did you mean 'summary'?"), ("cost x", "needs 3"), ("truth a b", "takes 1"),
                 ("truth none.tsv", "none.tsv"), ("truth ragged.tsv", "line 2"), ("tables . m.tsv tabel3", "did you mean 'table3'?"),
-                ("key damaged.json status", "damaged.json: not a JSON report"), ("pairs compres", "did you mean 'compress'?"),
+                ("key damaged.json status", "damaged.json: not a JSON report"),
                 ("place absent.json nipple", "has no landmark 'nipple'"), ("least ragged.tsv surgery much a", "'much'"),
                 ("report nowhere .", "is not the folder of a run"), ("summary . --pipelines nowhere", "nowhere")):
             done = self.run_tool(line)
@@ -47,9 +47,6 @@ class Tabulate(InFolder):
         lost = self.run_tool("pages check page.md")
         self.assertEqual(lost.returncode, 1)
         self.assertIn("lost.tsv: stands in no page", lost.stderr)
-
-    def test_says_which_files_belong_together(self):
-        self.assertIn("| [compress](tools/compress.md) |", self.run_tool("pairs compress").stdout)
 
     def test_tables_of_a_run_in_one_call(self):
         pipelines = small_run.source / "pipelines"

@@ -7,10 +7,10 @@
 
 #include "core/atomic_file.hpp"
 #include "core/report.hpp"
-#include "core/text/words.hpp"
 #include "fixtures/run_tool.hpp"
 #include "fixtures/samples.hpp"
 #include "fixtures/scratch_folder.hpp"
+#include "fixtures/words.hpp"
 #include "io/mesh_file.hpp"
 
 namespace breast {

@@ -64,6 +64,7 @@ said "fibroglandular" breast laws seed2008
 refused "did you mean 'compress'" breast compres
 refused "--no-such" breast laws seed2008 --no-such
 refused "give a command" breast
+refused "'made' is not a kind of table or page" breast tabulate made table.tsv result.json  # the upkeep of the source tree's pages
 pass "version, list, help, a tool; an unknown command and option"
 
 source "$prefix/share/bash-completion/completions/breast"

@@ -10,10 +10,10 @@
 #include <sstream>
 
 #include "core/atomic_file.hpp"
-#include "core/text/words.hpp"
 #include "fixtures/run_tool.hpp"
 #include "fixtures/samples.hpp"
 #include "fixtures/scratch_folder.hpp"
+#include "fixtures/words.hpp"
 #include "io/geometry_file.hpp"
 #include "io/label_file.hpp"
 #include "io/mammogram_file.hpp"

@@ -38,9 +38,10 @@ refused "a scan with a line break in its name" "MR: a line break may not stand i
 plan fuzz MINUTES=1 && plan release-check FUZZ_MINUTES=1 FUZZ_INPUTS=1 FAULT_ALLOCATIONS=1 || { cat "$work/err"; fail "settings of fuzz are known"; }
 pass "unknown settings and values are refused by name, with a suggestion"
 
-# Every setting has its default in one file, which depends on the case.
-diff <(grep -o '^[A-Z][A-Z0-9_]* ?=' pipelines/settings.mk pipelines/given.mk pipelines/build.mk -h | cut -d' ' -f1 | sort) \
-  <(make -f Makefile.pipeline settings | sort) || fail "settings.mk has a default for every setting of settings.tsv"
+# Defaults, which depend on the case, are those of settings, once each.
+defaults=$(grep -oh '^[A-Z][A-Z0-9_]* ?=' pipelines/settings.mk pipelines/build.mk | cut -d' ' -f1 | sort)
+[ "$(wc -w <<< "$defaults")" -gt 50 ] && [ -z "$(uniq -d <<< "$defaults")" ] && [ -z "$(comm -23 <(echo "$defaults") <(make -f Makefile.pipeline settings | sort))" ] ||
+  fail "settings.mk has no default twice and none of what is no setting"
 has() { # VALUES SETTING... -- ARGUMENT...
   local values=$1 names=()
   shift

@@ -7,7 +7,7 @@
 #include "core/statistics/percentile.hpp"
 #include "core/text/library_message.hpp"
 #include "core/text/lower_case.hpp"
-#include "core/text/words.hpp"
+#include "fixtures/words.hpp"
 
 namespace breast {
 namespace {

@@ -34,6 +34,18 @@ HermiteSheet random_sheet(int nu, int nv, double roughness, unsigned seed) {
   return sheet;
 }
 
+std::vector<Vec3> sheet_dofs(const HermiteSheet& sheet) {
+  std::vector<Vec3> dofs;
+  dofs.reserve(4 * sheet.nodes.size());
+  for (const auto& n : sheet.nodes) {
+    dofs.push_back(n.x);
+    dofs.push_back(n.scale_1 * n.x_1);
+    dofs.push_back(n.scale_2 * n.x_2);
+    dofs.push_back(n.scale_1 * n.scale_2 * n.x_12);
+  }
+  return dofs;
+}
+
 SheetData sample(const HermiteSheet& sheet, int n) {
   SheetData data;
   for (int j = 0; j <= n; ++j)

@@ -2,9 +2,10 @@
 """Shapes between plates that do not grip the breast: they are kept, and nothing is made of them."""
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable
 from pathlib import Path
+
+from ..reports import parse_report
 
 VIEWS = ("cc", "mlo")
 
@@ -12,10 +13,9 @@ VIEWS = ("cc", "mlo")
 def report_of(file: Path) -> dict[str, object]:
     """A stage's JSON report; {} where there is none, as of a program that writes none."""
     try:
-        report = json.loads(file.read_text(encoding="utf-8", errors="replace"))
+        return parse_report(file.read_text(encoding="utf-8", errors="replace"))
     except (OSError, ValueError):
         return {}
-    return report if isinstance(report, dict) else {}
 
 
 def why_no_compression(shape: Path) -> str:

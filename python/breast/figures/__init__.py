@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from importlib import import_module
+from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -19,11 +20,12 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class Figure:
     """summary: its content and input, for the help. in_space: it shows surfaces, which need a display (PrivateDisplay). of_points:
-    its .vtp are points instead of curves."""
+    its .vtp are points instead of curves. package: where its module is."""
 
     summary: str
     in_space: bool = False
     of_points: bool = False
+    package: str = __name__
 
 
 FIGURES = {
@@ -48,12 +50,12 @@ FIGURES = {
                       "curve.vtp, --scan and --labels)", True),
     "motion": Figure("how far tissue moves from prone to supine by its depth, beside living women (from a .tsv of population)"),
     "cost": Figure("error against run time (from the table .tsv of tabulate cost)"),
-    "budget": Figure("what is left of the errors when one stage is replaced by the truth (from the .tsv of tabulate budget)"),
-    "error-sources": Figure("what moves a predicted place by how many mm (from the .tsv of tabulate error-sources)"),
-    "methods-cost": Figure("error against CPU time over all methods (from the .tsv of tabulate methods-cost)"),
 }
+if find_spec("breast_validation"):  # in the source tree
+    from breast_validation import figures
+    FIGURES.update({name: Figure(summary, package=figures.__name__) for name, summary in figures.SUMMARIES.items()})
 
 
 def draw(name: str, inputs: Inputs) -> Picture | Animation:
     """A figure by its name in FIGURES. One that shows surfaces needs a display."""
-    return import_module(f".{name.replace('-', '_')}", __name__).draw(inputs)
+    return import_module(f".{name.replace('-', '_')}", FIGURES[name].package).draw(inputs)

@@ -20,18 +20,12 @@ def draw(inputs: Inputs) -> Picture:
     element, template, solver = (np.array(table.texts(name)) for name in ("element", "template", "solver"))
     panel = picture.panel(0, 0, 1, 1)
     panel.caption("Error against run time: distance to the finest solution")
-    axes = panel.plot_axes()
+    axes = panel.plot_axes("CPU time of backward and forward (s)", "error of tumour or nipple, supine (mm)", "xy")
     for of_element, of_template, direct, words, colour, marker, style in _SERIES:
         which = (element == of_element) & (template == of_template) & ((solver == "direct") == direct)
         which &= np.isfinite(seconds) & np.isfinite(error) & (error > 0)
         if which.any():
             axes.plot(seconds[which], error[which], style, marker=marker, color=colour, label=words, linewidth=points(2.2))
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_formatter(lambda value, _: f"{value:g}")
-    axes.set_xlabel("CPU time of backward and forward (s)", fontsize=points(SMALL + 1))
-    axes.set_ylabel("error of tumour or nipple, supine (mm)", fontsize=points(SMALL + 1))
     axes.grid(True, which="minor", color="0.93", linewidth=0.5)
     if axes.lines:
         axes.legend(fontsize=points(SMALL), framealpha=0.9)

@@ -16,7 +16,7 @@ _COLOURS, _MARKERS = ("#0072B2", "#D55E00", "#009E73"), "osD"
 
 
 def _add_paths(panel: Panel, states: list[State], low: float, high: float, logarithmic: bool) -> None:
-    axes = panel.plot_axes()
+    axes = panel.plot_axes("thickness between the flat parts of the plates (mm)", "force (N)", "y" * logarithmic)
     for k, state in enumerate(states):
         contact, plates = state.contact, two_plates(state)
         words = f"{contact.view}, reduction {contact.reduction_percent:.0f} %, "
@@ -28,12 +28,7 @@ def _add_paths(panel: Panel, states: list[State], low: float, high: float, logar
     axes.axhspan(*CLINICAL_N, color="#dff0df", zorder=0, label=f"{CLINICAL_N[0]} to {CLINICAL_N[1]} N, the clinical range")
     thickness = np.concatenate([s.contact.path["thickness_mm"] for s in states])
     axes.set_xlim(10 * np.ceil(thickness.max() / 10), 10 * np.floor(thickness.min() / 10))
-    if logarithmic:
-        axes.set_yscale("log")
-        axes.yaxis.set_major_formatter(lambda force, _: f"{force:g}")
     axes.set_ylim(low, high)
-    axes.set_xlabel("thickness between the flat parts of the plates (mm)", fontsize=points(SMALL + 1))
-    axes.set_ylabel("force (N)", fontsize=points(SMALL + 1))
 
 
 def draw(inputs: Inputs) -> Picture:

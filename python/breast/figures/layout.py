@@ -253,8 +253,8 @@ class Panel:
                         fontsize=points(SMALL))
         self.text((left + 18, bottom + tall + 18), title, SMALL + 1, align="right")
 
-    def plot_axes(self) -> Any:
-        """matplotlib's axes for a chart below the caption, with room for ticks and titles."""
+    def plot_axes(self, across: str, upwards: str = "", logarithmic: str = "") -> Any:
+        """matplotlib's axes for a chart below the caption, with their titles; `logarithmic` has the letters of such axes: "xy"."""
         self.axes.set_axis_off()
         low = self.low + [74, 58]
         size = np.array([self.size[0] - 74 - 22, self.top - 58 - 14])
@@ -262,6 +262,11 @@ class Panel:
         axes.tick_params(labelsize=points(SMALL))
         axes.grid(True, color="0.87", linewidth=0.7)
         axes.set_axisbelow(True)
+        axes.set_xlabel(across, fontsize=points(SMALL + 1))
+        axes.set_ylabel(upwards, fontsize=points(SMALL + 1))
+        for letter in logarithmic:
+            axes.set(**{f"{letter}scale": "log"})
+            getattr(axes, f"{letter}axis").set_major_formatter(lambda value, _: f"{value:g}")
         return axes
 
     def _pixels(self) -> Any:

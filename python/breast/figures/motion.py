@@ -22,7 +22,7 @@ def draw(inputs: Inputs) -> Picture:
             ("change", "change of the distance from the ribs (mm)", "(b) change of its distance from the ribs", (-55, 5)))):
         panel = picture.panel(0.5 * k, 0, 0.5 * (k + 1), 1)
         panel.caption(title)
-        axes = panel.plot_axes()
+        axes = panel.plot_axes("distance from the ribs in the scan (mm)", words)
         for mean, sd, shift, marker, colour, label in (("women_mean", "women_sd", -0.08, "s", "0.45", "women, mean and SD"),
                                                        ("mean", "sd", 0.08, "o", "#D55E00", model)):
             found = [(n, rows[f"{start}_{key}_mm"]) for n, (key, _) in enumerate(_DEPTHS) if f"{start}_{key}_mm" in rows]
@@ -32,8 +32,6 @@ def draw(inputs: Inputs) -> Picture:
         axes.set_xlim(-0.5, 2.5)
         axes.set_ylim(*limits)
         axes.set_xticks(range(3), [words for _, words in _DEPTHS])
-        axes.set_xlabel("distance from the ribs in the scan (mm)", fontsize=points(SMALL + 1))
-        axes.set_ylabel(words, fontsize=points(SMALL + 1))
         if k == 0:
             axes.legend(loc="upper left", fontsize=points(SMALL), frameon=False)
     return picture

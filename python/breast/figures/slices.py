@@ -9,7 +9,6 @@ from functools import cached_property
 import numpy as np
 
 from ..errors import BreastError
-from ..grid import Grid
 from ..section import quads_in_plane
 from ..state import TISSUES, State
 from .body import face_facets, has_tumour
@@ -126,7 +125,7 @@ class Slices:
     def _add_contours(self, panel: Panel, plane: Plane, corner: np.ndarray, size: np.ndarray) -> None:
         tissue, grid = self.labels.tissue, self.labels.grid
         fields = [self._breast, tissue != 0, tissue == TISSUES.index("muscle"), self.labels.fibroglandular_fraction]
-        breast, body, muscle, gland = _clamped(grid, fields, _raster(corner, plane, size, _RASTER_MM))
+        breast, body, muscle, gland = grid.clamped(fields, _raster(corner, plane, size, _RASTER_MM))
         coarsest = np.abs((grid.direction * grid.spacing).T @ np.stack([plane.right, plane.up], -1)).max()
         smooth = max(_SMOOTHING_MM, _SMOOTHING_VOXELS * coarsest) / _RASTER_MM
         away = gaussian(breast, _NEAR_BREAST_MM / _RASTER_MM) < 0.05
@@ -187,20 +186,6 @@ def _raster(corner: np.ndarray, plane: Plane, size: np.ndarray, pitch: float) ->
     """Places (rows, columns, 3) every `pitch` mm, from the lower left corner."""
     rows, columns = _rows(size, pitch)
     return corner + pitch * (np.arange(rows)[:, None, None] * plane.up + np.arange(columns)[:, None] * plane.right)
-
-
-def _clamped(grid: Grid, fields: Sequence[np.ndarray], places: np.ndarray) -> list[np.ndarray]:
-    """Voxels of several fields at places (..., 3) by trilinear interpolation; beyond the border the nearest voxel's."""
-    last = np.array(grid.size) - 1
-    at = np.clip(grid.to_index(places.reshape(-1, 3)), 0, last)
-    low = np.minimum(at.astype(int), np.maximum(last - 1, 0))
-    t, sums = at - low, [np.zeros(len(at)) for _ in fields]
-    for corner in np.ndindex(2, 2, 2):
-        weight = np.where(corner, t, 1 - t).prod(1)
-        i, j, k = np.minimum(low + corner, last).T
-        for total, field in zip(sums, fields):
-            total += weight * field[k, j, i]
-    return [total.reshape(places.shape[:-1]) for total in sums]
 
 
 def need_scan(inputs: Inputs, figure: str) -> None:

@@ -7,13 +7,10 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..text_table import parse_number, read_text
-from .. import text_table
-from ..cases.cost import case_cost
 from ..errors import Failed
 from ..output import write_text
+from ..text_table import read_text
 from .advice import Advice, own_advice, warnings_of
-from .files import exists
 from .kinds import Request, kind
 from .stage_report import StageReport
 from .summary import lines_of, tumour_origin
@@ -144,12 +141,3 @@ def _cohort(request: Request) -> str:
     write_text(runs / "cohort.html", cohort_page(pages))
     write_text(runs / "contours.html", contours_page(pages))
     return table.text()
-
-
-@kind("case-cost", "RUNS CORES ELEMENT ELEMENTS",
-      "minutes and MB to request from a cluster, and their source: RUNS/cost.tsv or the pipeline's own table")
-def _case_cost(request: Request) -> str:
-    cores, size = (parse_number(request.word(place), f"case-cost: {name}") for place, name in ((1, "CORES"), (3, "ELEMENTS")))
-    file = request.path(0) / "cost.tsv"
-    measured, assumed = text_table.read_table(file) if exists(file) else None, request.pipelines / "cohort-cost.tsv"
-    return "{}\t{}\t{}\n".format(*case_cost(measured, text_table.read_table(assumed), int(cores), request.word(2), size))

@@ -6,9 +6,9 @@ from pathlib import Path
 
 from ..text_table import parse_number
 from .kinds import Request, kind
-from .shapes import apart, most_apart
+from .shapes import most_apart
 from .stage_report import StageReport, posture_failure_of
-from .table import NO_VALUE, Row, Table, fixed, or_dash
+from .table import NO_VALUE, Row, Table, fixed
 
 
 class Point:
@@ -71,38 +71,6 @@ def accuracy_row(folder: Path, point: str, coarser: str, wanted: float) -> Row |
     meets = all(mm is not None and mm <= wanted for mm in errors)
     return [point, p.forward.text("elements"), *(fixed(mm, 4) for mm in errors), fixed(p.total("cpu_seconds"), 2),
             "yes" if meets else "no"]
-
-
-def convergence_table(folder: Path, meshes: list[str]) -> Table:
-    """Convergence of compressed shapes: one row a mesh, the variant FOLDER/N with its stages cc and mlo.
-
-    Distance in mm of tumour and nipple from those of the last N, the solver's own error estimate at the tumour, mm, forces of paddle
-    and detector, N, and reduction of the thickness, per cent. "-": not reached.
-    """
-    quantities = ("tumour_mm", "tumour_estimate_mm", "nipple_mm", "paddle_N", "detector_N", "reduction_percent")
-    table = Table(["N", "elements", *(f"{view}_{quantity}" for view in ("CC", "MLO") for quantity in quantities)])
-    for n in meshes:
-        row = [n, or_dash(StageReport.read(folder / n / "mesh.json").text("elements"))]
-        for view in ("cc", "mlo"):
-            row += _converging_view(folder / n / f"{view}.vtkhdf", folder / meshes[-1] / f"{view}.vtkhdf")
-        table.rows.append(row)
-    return table
-
-
-def _converging_view(file: Path, finest: Path) -> Row:
-    if not file.exists():
-        return [NO_VALUE] * 6
-    report = StageReport.read(file.with_suffix(".json"))
-    tumour, nipple = (fixed(apart(file, finest, name), 2) if finest.exists() else NO_VALUE for name in ("tumour", "nipple"))
-    estimate = report.number(f"landmarks/{report.landmark('tumour')}/error_estimate_mm")
-    forces = [fixed(report.number(key), decimals) for key, decimals in
-              (("force_N", 1), ("detector_force_N", 1), ("reduction_percent", 0))]
-    return [tumour, fixed(estimate, 2), nipple, *forces]
-
-
-@kind("convergence", "FOLDER N...", "distances of the compressed shapes FOLDER/N-CC and N-MLO from those of the last N")
-def _convergence(request: Request) -> Table:
-    return convergence_table(request.path(0), request.rest(1))
 
 
 @kind("cost", "FOLDER FINEST POINT...", "error against run time for the points ELEMENT-TEMPLATE-N[-SOLVER]")

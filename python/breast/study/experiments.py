@@ -1,15 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the reports of solves state: outcomes of studies, breasts between plates, the error budget, comparison with CalculiX."""
+"""What the reports of solves state: outcomes of studies, breasts between plates."""
 from __future__ import annotations
 
 from pathlib import Path
 
-from ..text_table import parse_number
-from ..errors import BreastError
 from .kinds import Request, kind
 from .shapes import apart, moved
-from .stage_report import StageReport, failure_of, variant_of
-from .table import NO_VALUE, Table, fixed, general, one_line, or_dash, shortest, table_if_any
+from .stage_report import StageReport
+from .table import NO_VALUE, Table, fixed, one_line, or_dash, shortest
 
 # ---- outcomes of studies ---------------------------------------------------------------------------------------------
 
@@ -112,80 +110,3 @@ def _compressions(request: Request) -> Table:
       "variant BASE or of the next one")
 def _plates(request: Request) -> Table:
     return plates_table(request.path(0), request.word(1), request.rest(2))
-
-
-# ---- error budget ----------------------------------------------------------------------------------------------------
-
-_REPLACED = {
-    "chain": ("labels", "geometry", "mesh", "reference", "supine", "truth-cc", "truth-mlo", "cc-mammogram", "mlo-mammogram"),
-    "segmentation": ("labels",), "body": ("labels", "geometry", "mesh"), "tissue": ("labels",),
-    "discretisation": ("reference", "supine", "truth-cc", "truth-mlo"), "backward": ("reference",),
-    "compression": ("reference", "truth-cc", "truth-mlo")}
-"""The stages of the chain that a row of the budget replaces."""
-
-
-def budget_table(run: Path, rows: list[str]) -> Table:
-    """The errors that remain when one stage is replaced by the truth: one row for the chain and for every RUN/budget/ROW.
-
-    Columns: mean and largest error in mm of the true positions in the stress-free and supine shapes; distance of their MLO positions
-    from the curve (mean, 95 %, largest); CPU seconds of the chain's own stages that the row replaces (for the chain: of all stages);
-    missing: the reason why a cell is "-".
-    """
-    table = Table(["replaced", "stress_free_mean_mm", "stress_free_largest_mm", "supine_mean_mm", "supine_largest_mm",
-                   "curve_mean_mm", "curve_p95_mm", "curve_largest_mm", "cpu_s", "missing"])
-    for name in ("chain", *rows):
-        landmarks, curves = (table_if_any(run / "budget" / name / file) for file in ("landmarks.tsv", "curves-summary.tsv"))
-        errors = [landmarks.number_at(which, f"{shape}_error_mm") if landmarks else None
-                  for shape in ("stress_free", "supine") for which in ("mean", "largest")]
-        errors += [curves.number_at(which, "true_to_curve_mm") if curves else None for which in ("mean", "p95", "largest")]
-        stages = _REPLACED.get(name)
-        cpu = sum(StageReport.read(run / f"{stage}.json").number("cpu_seconds") or 0 for stage in stages or ())
-        table.rows.append([name, *(fixed(mm, 3) for mm in errors), "0" if stages is None else fixed(cpu, 2), _missing(run, name)])
-    return table
-
-
-def _missing(run: Path, row: str) -> str:
-    said = ["stress-free, supine: not solved in this row"] if row == "compression" else []
-    for shape in _SHAPES:
-        solve = variant_of(run, "budget", row) / shape
-        failure = failure_of(solve)
-        if failure is not None:
-            said.append(f"{shape}: {one_line(StageReport.read(solve.with_name(shape + '.json')).text('reason') or failure)}")
-    return or_dash("; ".join(said))
-
-
-@kind("budget", "RUN ROW...", "errors that remain when one stage is replaced by the truth (RUN/budget/ROW)")
-def _budget(request: Request) -> Table:
-    return budget_table(request.path(0), request.rest(1))
-
-
-# ---- CalculiX --------------------------------------------------------------------------------------------------------
-
-
-def pressed_table(ours: Table, scene: str, gap: float, reached: float, force: str, iterations: int, cpu: float) -> Table:
-    """A block pressed between plates: CalculiX's result beside the output of bench_pressed_block.
-
-    The last row of that output is the requested state; its seconds and iterations are the sums over all rows.
-
-    Args:
-        gap: requested, in per cent of the block's height.
-        reached: fraction of the plates' motion that CalculiX reached, 0 to 1.
-        force: on the upper plate, N, as printed.
-    """
-    if not ours.rows:
-        raise BreastError("has no rows", ours.name)
-    rows = range(len(ours.rows))
-    newton, seconds = (sum(ours.number(r, column) for r in rows) for column in ("newton", "cpu_seconds"))
-    return Table(
-        ["scene", "gap_percent", "ccx_reached_gap_percent", "ccx_force_N", "our_force_N", "ccx_iterations", "our_newton",
-         "ccx_cpu_s", "our_cpu_s", "ccx_over_ours", "ours"],
-        [[scene, general(gap), fixed(100 - reached * (100 - gap), 1), force, ours.cell(rows[-1], "force_N"), str(iterations),
-          general(newton), fixed(cpu, 2), fixed(seconds, 2), fixed(cpu / seconds, 1) if seconds > 0 else NO_VALUE,
-          ours.cell(rows[-1], "status")]])
-
-
-@kind("pressed", "OURS.tsv SCENE GAP REACHED FORCE ITERATIONS SECONDS",
-      "block pressed between plates: CalculiX (results given as arguments) beside ours")
-def _pressed(request: Request) -> Table:
-    gap, reached, iterations, seconds = (parse_number(request.word(n), "pressed") for n in (2, 3, 5, 6))
-    return pressed_table(request.table(0), request.word(1), gap, reached, request.word(4), int(iterations), seconds)

@@ -5,13 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..errors import BreastError
-from .kinds import Request, kind
 from .shapes import distance
 from .slopes import slope_cell
 from .stage_report import StageReport, posture_failure_of, variant_of
 from .table import NO_VALUE, Table, fixed, read_table
 
-_LANDMARKS = ("nipple", "tumour")
+LANDMARKS = ("nipple", "tumour")
 
 
 def moved_in(file: Path, landmark: str) -> float:
@@ -34,7 +33,7 @@ def findings_table(run: Path, variants: list[str]) -> Table:
                    "fat_slope_tumour"],
                   [["paper", "4096", "4.5", "1.6", "8.78", "3.03", "-", "-", "-", "-0.607", "-0.705"]])
     best = variant_of(run, "findings", variants[-1])
-    finest = [moved_in(best / "supine.json", landmark) if posture_failure_of(best) is None else None for landmark in _LANDMARKS]
+    finest = [moved_in(best / "supine.json", landmark) if posture_failure_of(best) is None else None for landmark in LANDMARKS]
     table.rows.append(["default", *_finding(run, finest)])
     for variant in variants:
         folder = variant_of(run, "findings", variant)
@@ -44,11 +43,11 @@ def findings_table(run: Path, variants: list[str]) -> Table:
 
 
 def _finding(folder: Path, finest: list[float | None]) -> list[str]:
-    supine = [moved_in(folder / "supine.json", landmark) for landmark in _LANDMARKS]
+    supine = [moved_in(folder / "supine.json", landmark) for landmark in LANDMARKS]
     report, slopes = StageReport.read(folder / "supine.json"), read_table(folder / "slopes.tsv")
-    return [report.text("elements"), *(fixed(moved_in(folder / "reference.json", landmark), 3) for landmark in _LANDMARKS),
+    return [report.text("elements"), *(fixed(moved_in(folder / "reference.json", landmark), 3) for landmark in LANDMARKS),
             *(fixed(mm, 3) for mm in supine), *map(_beyond, supine, finest), fixed(report.number("error_estimate_mm"), 3),
-            *(slope_cell(slopes, landmark, "fat", 3) for landmark in _LANDMARKS)]
+            *(slope_cell(slopes, landmark, "fat", 3) for landmark in LANDMARKS)]
 
 
 def _beyond(value: float, finest: float | None) -> str:
@@ -58,8 +57,8 @@ def _beyond(value: float, finest: float | None) -> str:
     return ("" if percent < 0 else "+") + fixed(percent, 2)
 
 
-def _truth_moves(report: StageReport, side: str) -> list[str]:
-    return [fixed(report.number(f"{side}/landmarks/{landmark}/distance_mm"), 2) for landmark in _LANDMARKS]
+def truth_moves(report: StageReport, side: str) -> list[str]:
+    return [fixed(report.number(f"{side}/landmarks/{landmark}/distance_mm"), 2) for landmark in LANDMARKS]
 
 
 def calibration_note(truth: Path | None, side: str) -> str:
@@ -67,38 +66,7 @@ def calibration_note(truth: Path | None, side: str) -> str:
     report = StageReport.read(truth) if truth else StageReport()
     if report.text("parameters/preset") != "paper":
         return ""
-    nipple, tumour = _truth_moves(report, side)
+    nipple, tumour = truth_moves(report, side)
     return ("calibrated to this row: size and tumour of the preset \"paper\" were fitted so that this chain moves nipple and tumour "
             "by as much as the paper (8.8 and 3.0 mm supine); the phantom's own truth moves "
             f"{nipple} and {tumour} mm")
-
-
-def calibration_table(run: Path, truth: Path, side: str, landmarks: Table) -> Table:
-    """Motion from the prone shape in mm: in the paper, with the model as printed, as solved, and in the truth (`landmarks`)."""
-    table = Table(["model", "supine_nipple_mm", "supine_tumour_mm", "stress_free_nipple_mm", "stress_free_tumour_mm", "remark"],
-                  [["the paper", "8.8", "3.0", "4.5", "1.6", ""]])
-    for name, folder, remark in (
-            ("as printed in the paper", variant_of(run, "findings", "as-printed"), "calibrated to this row"),
-            ("default chain", run, "calibrated to this row, by the same fit")):
-        moves = [fixed(moved_in(folder / f"{stage}.json", landmark), 2)
-                 for stage in ("supine", "reference") for landmark in _LANDMARKS]
-        table.rows.append([name, *moves, remark])
-    stress_free = [NO_VALUE, NO_VALUE]
-    for r in range(len(landmarks.rows)):
-        if landmarks.cell(r, "side") == side and landmarks.cell(r, "landmark") in _LANDMARKS:
-            moved = distance(landmarks.point(r, "stress_free_"), landmarks.point(r, "prone_"))
-            stress_free[_LANDMARKS.index(landmarks.cell(r, "landmark"))] = fixed(moved, 2)
-    table.rows.append(["the phantom's truth", *_truth_moves(StageReport.read(truth), side), *stress_free, ""])
-    return table
-
-
-@kind("findings", "RUN VARIANT...", "effect of numerical choices on the paper's results; the last variant is the finest")
-def _findings(request: Request) -> Table:
-    return findings_table(request.path(0), request.rest(1))
-
-
-@kind("calibration", "RUN PHANTOM.json SIDE", "values to which the preset was fitted, beside the motion of its truth")
-def _calibration(request: Request) -> Table:
-    truth = request.path(1)
-    landmarks = truth.with_name(truth.stem + "-truth") / "landmarks.tsv"
-    return calibration_table(request.path(0), truth, request.word(2), read_table(landmarks))

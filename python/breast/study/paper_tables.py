@@ -83,17 +83,6 @@ def _row_of(materials: Table, tissue: str) -> list[str]:
                       "add one, or use a set that has it (seed2008)")
 
 
-@kind("scaled", "PAPER.tsv PREFIX BASE.vtkhdf",
-      "one of Tables III to VI: our results from PREFIX-PERCENT/supine.vtkhdf beside the paper's")
-def _scaled(request: Request) -> Table:
-    return scaled_table(request.table(0), request.path(1), request.path(2), request.remark)
-
-
-@kind("constants", "PAPER.tsv MATERIALS.tsv", "Table II: the constants used beside the paper's")
-def _constants(request: Request) -> Table:
-    return constants_table(request.table(0), request.table(1))
-
-
 @kind("set", "fat-only|columns MATERIALS.tsv", "a material set as a study changes it")
 def _set(request: Request) -> Table:
     return changed_set(request.table(1), request.word(0))

@@ -15,7 +15,6 @@ from ..errors import BreastError, Failed
 from ..output import write_bytes
 from ..text_table import read_text
 from .advice import CHAIN_STAGES, Warned, own_advice, warnings_of
-from .documents import machine
 from .files import exists
 from .findings import calibration_note
 from .html import Block, Section, figure, page, table, table_of, table_of_text, text
@@ -173,6 +172,17 @@ def _commands(run: Path) -> Section:
 
 def without_folders(words: str) -> str:
     return re.sub(r"[^ ,=:\n]*/", "", words)
+
+
+def processor() -> str:
+    """The name of the processor."""
+    with open("/proc/cpuinfo", encoding="utf-8", errors="replace") as file:
+        names = (line.partition(": ")[2].strip("\n") for line in file if line.startswith("model name"))
+        return next((name for name in names if name), "a processor without a name")
+
+
+def machine() -> str:
+    return f"{os.cpu_count()} cores, {processor()}"
 
 
 @kind("report", "RUN RUNS", "one self-contained HTML page of a finished case; RUNS contains stability/ and compare/")

@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from .kinds import Request, kind
 from .shapes import distance
 from .stage_report import Place, StageReport
 from .table import NO_VALUE, Table, fixed
@@ -106,8 +105,3 @@ def _slope_cells(tissue: str, landmark: str, zero: StageReport, scaled: Path, sl
     c = compare_slopes(slope, derivative, imaged, base, [float(step) / 100 for step in steps], places)
     return [fixed(slope, 5), fixed(c.resolved, 5), fixed(c.difference, 5), fixed(c.step_error, 5), fixed(c.vector_percent, 2),
             "agrees" if c.agrees else "differs"]
-
-
-@kind("slopes", "SUPINE.json SCALED SLOPES.tsv TUMOUR-SLOPES.tsv", "Table VII: slopes from one solve compared with solving again")
-def _slopes(request: Request) -> Table:
-    return slopes_table(request.path(0), request.path(1), request.table(2), request.table(3))

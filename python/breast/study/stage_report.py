@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import json
-import math
 import os
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any
 
 from ..errors import BreastError
+from ..reports import parse_report
 from ..text_table import read_text
 from .files import exists, valid, with_ending
 from .table import one_line
 
 Place = tuple[float, float, float]
-_MOST_BYTES, _DEEPEST = 16 << 20, 64
+_MOST_BYTES = 16 << 20
 
 
 class StageReport:
@@ -35,16 +35,10 @@ class StageReport:
 
     @staticmethod
     def parse(text: str, name: str) -> StageReport:
-        def refuse(number: str) -> NoReturn:
-            raise ValueError(number)
-
         try:
-            root = json.loads(text, parse_constant=refuse, parse_float=_finite)
-        except (ValueError, RecursionError):
-            root = None
-        if not isinstance(root, dict) or not _shallow(root, _DEEPEST):
-            raise BreastError("not a JSON report; remove it, or run its stage again", name)
-        return StageReport(root)
+            return StageReport(parse_report(text))
+        except ValueError:
+            raise BreastError("not a JSON report; remove it, or run its stage again", name) from None
 
     def __bool__(self) -> bool:
         return bool(self.root)
@@ -110,13 +104,6 @@ def posture_failure_of(variant: Path) -> str | None:
     return next((failure for failure in failures if failure is not None), None)
 
 
-def _finite(text: str) -> float:
-    number = float(text)
-    if not math.isfinite(number):
-        raise ValueError(text)
-    return number
-
-
 def _number(entry: Any) -> float | None:
     return float(entry) if isinstance(entry, (int, float)) and not isinstance(entry, bool) else None
 
@@ -130,9 +117,3 @@ def _first(entry: Any, name: str) -> float | None:
         if number is not None:
             return number
     return None
-
-
-def _shallow(entry: Any, depth: int) -> bool:
-    if not isinstance(entry, (dict, list)):
-        return True
-    return depth > 0 and all(_shallow(item, depth - 1) for item in (entry.values() if isinstance(entry, dict) else entry))

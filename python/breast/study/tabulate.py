@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import os
 from dataclasses import replace
+from importlib.util import find_spec
 from pathlib import Path
 
 from ..command.tool import Run, Tool
 from ..errors import BreastError
 from ..page import views_page  # noqa: F401
-from . import summary, report, advice, verify, values, truth, documents  # noqa: F401, I001  the order of the help
-from . import run_tables, paper_tables, slopes, verdicts, findings, experiments, cost, leaveout, draws, cohort, sides, same_scan, views, error_sources  # noqa: F401
+from . import summary, report, advice, verify, values  # noqa: F401, I001  the order of the help
+from . import run_tables, paper_tables, experiments, cost, leaveout, cohort, sides, views  # noqa: F401
 from .kinds import KINDS, Request, kind_called
+
+_OWN = len(KINDS)
+if find_spec("breast_validation"):  # in the source tree
+    import breast_validation.kinds  # noqa: F401
 
 
 def calibrated(request: Request) -> Request:
@@ -31,8 +36,9 @@ def declaration() -> Tool:
         "Reads the JSON reports, TSV tables and shapes of finished runs and prints one table or page to stdout, either as "
         "tab-separated text with a header line or as HTML. It runs no simulation. The pipeline makes all its tables and pages with "
         "this tool, and each kind can also be made by hand.")
-    tool.describe("The kinds are:")
-    for known in KINDS.values():
+    for number, known in enumerate(KINDS.values()):
+        if number in (0, _OWN):
+            tool.describe("In the source tree, for the validation pages and the checks of the tests:" if number else "The kinds are:")
         tool.describe(f"{known.name} {known.arguments}: {known.help}.")
     tool.describe(
         "If a phantom's preset was fitted to results of the chain, the environment variable CALIBRATED=\"REPORT.json SIDE\" names the "
@@ -42,9 +48,8 @@ def declaration() -> Tool:
     tool.text("--pipelines", "FOLDER", "folder with the pipeline's own tables: advice.tsv, limits.txt, paper/, invivo/", "pipelines")
     tool.check(lambda: kind_called(tool.args.kind).check_count(len(tool.args.argument)))
     tool.example("tabulate summary runs/average", "the results of a finished case, preceded by its warnings")
-    tool.example(
-        "tabulate slopes runs/paper/supine.json runs/paper/studies/scaled runs/paper/slopes.tsv "
-        "runs/paper/studies/scaled/tumour-100/slopes.tsv", "every slope from one solve, compared with solving again")
+    tool.example("tabulate tables runs/paper pipelines/materials/seed2008.tsv table3 conclusions",
+                 "two of the tables in runs/paper/tables, beside the paper's")
     return tool
 
 

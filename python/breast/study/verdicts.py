@@ -10,8 +10,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..errors import BreastError
-from .kinds import Request, kind
 from .paper_tables import scaled_table
 from .shapes import moved
 from .slopes import slope_between, slope_cell
@@ -199,29 +197,3 @@ def _stiff_rows(sixth: Table, folder: Path) -> Table:
     wanted = Table(sixth.columns, [row for row in sixth.rows if row[0] in ("100", "1000", "2000")], sixth.name)
     prefix = folder.with_name(folder.name + "-tumour")
     return scaled_table(wanted, prefix, prefix.with_name(prefix.name + "-100") / "supine.vtkhdf", "")
-
-
-@kind("conclusions", "CONCLUSIONS.tsv TABLES [as-printed]",
-      "whether the paper's conclusions hold for its own rows of Tables III to VI in the folder TABLES, for ours as printed, and for "
-      "ours")
-def _conclusions(request: Request) -> Table:
-    if request.word(2, "as-printed") != "as-printed":
-        raise BreastError(f"conclusions: '{request.word(2)}' is not as-printed")
-    return judged_tables(request.table(0), request.path(1), len(request.words) > 2)
-
-
-@kind("judge", "CONCLUSIONS.tsv NAME=VALUES.tsv...", "whether the conclusions hold for each of these sets of values")
-def _judge(request: Request) -> Table:
-    models = {}
-    for word in request.rest(1):
-        name, equals, file = word.partition("=")
-        if not equals:
-            raise BreastError(f"judge: '{word}' is not NAME=VALUES.tsv")
-        models[name] = read_table(file)
-    return judge(request.table(0), models)
-
-
-@kind("survival", "CONCLUSIONS.tsv RUN SET...", "Table VIII: the conclusions with the material sets of RUN/studies/table8")
-def _survival(request: Request) -> Table:
-    third, sixth = (read_table(request.pipelines / f"paper/table{n}.tsv") for n in (3, 6))
-    return survival_table(request.table(0), third, sixth, request.path(1), request.rest(2), request.remark)

@@ -2,21 +2,20 @@
 """Tables in the pages of docs/, the runs from which they were made, and the numbers that pages state."""
 from __future__ import annotations
 
-import os
 import subprocess
-import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
 
-from ..errors import BreastError, Failed
-from ..output import write_text
-from ..text_table import read_text
-from .advice import extended_pattern
-from .kinds import Request, kind
-from .stage_report import StageReport
-from .summary import lines_of
-from .table import NO_VALUE, Table, one_line, or_dash, table_if_any
+from breast.errors import BreastError, Failed
+from breast.output import write_text
+from breast.study.advice import extended_pattern
+from breast.study.kinds import Request, kind
+from breast.study.report import machine
+from breast.study.stage_report import StageReport
+from breast.study.summary import lines_of
+from breast.study.table import NO_VALUE, Table, one_line, or_dash, table_if_any
+from breast.text_table import read_text
 
 _RUNS = Path("docs/tables/runs.tsv")
 _BEGIN, _CLOSE, _END = "<!-- table ", " -->", "<!-- end of table -->"
@@ -95,17 +94,6 @@ def _stated(source: Path, pattern: str) -> str:
     return ""
 
 
-def processor() -> str:
-    """The name of the processor."""
-    with open("/proc/cpuinfo", encoding="utf-8", errors="replace") as file:
-        names = (line.partition(": ")[2].strip("\n") for line in file if line.startswith("model name"))
-        return next((name for name in names if name), "a processor without a name")
-
-
-def machine() -> str:
-    return f"{os.cpu_count()} cores, {processor()}"
-
-
 def _commit_here() -> str:
     """The commit of the source tree in which this program runs, marked if there are uncommitted changes."""
     said = subprocess.run(["git", "describe", "--always", "--dirty", "--exclude", "*"], capture_output=True, text=True, check=False)
@@ -162,16 +150,3 @@ def _numbers(request: Request) -> str:
     if wrong:
         raise Failed("; ".join(wrong))
     return ""
-
-
-@kind("pairs", "all|TOOL", "page of the files that must belong together, for all tools or for one")
-def _pairs(request: Request) -> str:
-    """What the program pairs beside this one says: its rules are those of the tools."""
-    program = Path(sys.argv[0]).resolve().with_name("pairs")
-    try:
-        said = subprocess.run([program, request.word(0)], capture_output=True, text=True, check=False)
-    except OSError as error:
-        raise Failed(f"cannot be started ({error.strerror})", program) from None
-    if said.returncode != 0:
-        raise BreastError(said.stderr.strip().removeprefix("pairs: "))
-    return said.stdout

@@ -6,13 +6,13 @@ import math
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..output import write_text
-from .bounds import Bound
-from .cohort import Case, read_cases
-from .kinds import Request, kind
-from .sides import last_stage
-from .stage_report import StageReport
-from .table import Table, fixed, or_dash, table_if_any
+from breast.output import write_text
+from breast.study.bounds import Bound
+from breast.study.cohort import Case, read_cases
+from breast.study.kinds import Request, kind
+from breast.study.sides import last_stage
+from breast.study.stage_report import StageReport
+from breast.study.table import Table, fixed, or_dash, table_if_any
 
 UNCHANGED = "unchanged"
 _BETWEEN = "--"

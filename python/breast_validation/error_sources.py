@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 
-from ..errors import BreastError
-from .kinds import Request, kind
-from .table import Table, general, number_of, read_table
+from breast.errors import BreastError
+from breast.study.kinds import Request, kind
+from breast.study.table import Table, general, number_of, read_table
 
 Row = dict[str, str]
 TRUTH, FINER, CHOICE, AGAIN = "phantom's truth", "finer solution", "other assumption", "same breast again"

@@ -6,10 +6,10 @@ import math
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from ..text_table import parse_number, read_text
-from ..errors import BreastError
-from .kinds import Request, kind
-from .table import NO_VALUE, Row, Table, fixed, general, number_of, or_dash, read_table
+from breast.errors import BreastError
+from breast.study.kinds import Request, kind
+from breast.study.table import NO_VALUE, Row, Table, fixed, general, number_of, or_dash, read_table
+from breast.text_table import parse_number, read_text
 
 # ---- coverage of a band ----------------------------------------------------------------------------------------------
 

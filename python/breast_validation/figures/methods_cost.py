@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from .inputs import Inputs, need
-from .layout import SMALL, Picture, points
-from .table import Table
+from breast.figures.inputs import Inputs, need
+from breast.figures.layout import SMALL, Picture, points
+from breast.figures.table import Table
 
 _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#333333", "#E69F00", "#CC79A7", "#56B4E9")
 _MARKERS, _STYLES = "osD^vP*", ("-", "--", "-.", ":")
@@ -20,18 +20,12 @@ def draw(inputs: Inputs) -> Picture:
     picture = Picture(1100, 720)
     panel = picture.panel(0, 0, 1, 1)
     panel.caption("Error against CPU time, one mark for each mesh; what an error is measured against stands behind the method")
-    axes = panel.plot_axes()
+    axes = panel.plot_axes("CPU time (s)", "error (mm)", "xy")
     for k, name in enumerate(dict.fromkeys(method)):
         rows = np.flatnonzero(method == name)
         rows = rows[np.argsort(seconds[rows], kind="stable")]
         axes.plot(seconds[rows], error[rows], _STYLES[k % 4], marker=_MARKERS[k % 7], color=_COLOURS[k % 7], linewidth=points(2.2),
                   label=f"{name} ({measured[rows[0]]})")
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_formatter(lambda value, _: f"{value:g}")
-    axes.set_xlabel("CPU time (s)", fontsize=points(SMALL + 1))
-    axes.set_ylabel("error (mm)", fontsize=points(SMALL + 1))
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), ncols=2, fontsize=points(SMALL), frameon=False)
     box = axes.get_position()
     axes.set_position((box.x0, box.y0 + 0.11, box.width, box.height - 0.11))

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from .inputs import Inputs, need
-from .layout import SMALL, Picture, points
-from .table import Table
+from breast.figures.inputs import Inputs, need
+from breast.figures.layout import SMALL, Picture, points
+from breast.figures.table import Table
 
 _MEASURED = {"phantom's truth": ("#0072B2", ""), "finer solution": ("#56B4E9", "///"), "other assumption": ("#E69F00", "..."),
              "same breast again": ("#999999", "xxx")}
@@ -24,7 +24,7 @@ def draw(inputs: Inputs) -> Picture:
     picture = Picture(1200, 120 + 30 * len(order))
     panel = picture.panel(0, 0, 1, 1)
     panel.caption("What moves a predicted place, and by how much; the colour says against what this was measured")
-    axes = panel.plot_axes()
+    axes = panel.plot_axes("mm (logarithmic)", logarithmic="x")
     low, _, width, height = axes.get_position().bounds
     axes.set_position((0.34, axes.get_position().y0, low + width - 0.34, height))
     for name, (colour, hatch) in _MEASURED.items():
@@ -32,10 +32,7 @@ def draw(inputs: Inputs) -> Picture:
         axes.barh(rows, mm[order[rows]], 0.72, color=colour, hatch=hatch, edgecolor="white", label=f"from: {name}")
     for k, n in enumerate(order):
         axes.text(1.15 * max(mm[n], _LEAST_MM), k, f"{mm[n]:.2g}", va="center", fontsize=points(SMALL))
-    axes.set_xscale("log")
     axes.set_xlim(_LEAST_MM, mm.max() * 3)
-    axes.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
     axes.set_yticks(range(len(order)), [words[n] for n in order], fontsize=points(SMALL))
-    axes.set_xlabel("mm (logarithmic)", fontsize=points(SMALL + 1))
     axes.legend(loc="lower right", fontsize=points(SMALL), framealpha=0.95)
     return picture

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from .inputs import Inputs, need
-from .layout import SMALL, Picture, points
-from .table import Table
+from breast.figures.inputs import Inputs, need
+from breast.figures.layout import SMALL, Picture, points
+from breast.figures.table import Table
 
 _STAGES = {"chain": "nothing\n(the chain)", "segmentation": "labels", "body": "labels, surfaces\nand mesh",
            "tissue": "tissue\non the mesh", "cut": "support of\nthe cut", "discretisation": "(finer mesh,\nnot truth)",
@@ -22,7 +22,7 @@ def draw(inputs: Inputs) -> Picture:
     panel = picture.panel(0, 0, 1, 1)
     panel.caption("Error budget: what is left when one stage is replaced by the truth; dashed: the chain as it is; "
                   "\N{EN DASH}: the table says why there is no value")
-    axes = panel.plot_axes()
+    axes = panel.plot_axes("replaced by the truth", "mean error at the true places (mm)")
     at = np.arange(len(replaced))
     for k, (column, words, colour, hatch) in enumerate(_ERRORS):
         values, left = table.numbers(column), at + 0.27 * (k - 1)
@@ -33,8 +33,6 @@ def draw(inputs: Inputs) -> Picture:
             axes.text(x, np.nan_to_num(value), f"{value:.2f}" if np.isfinite(value) else "\N{EN DASH}", ha="center", va="bottom",
                       fontsize=points(SMALL - 1), bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.8})
     axes.set_xticks(at, [_STAGES.get(name, name) for name in replaced], fontsize=points(SMALL))
-    axes.set_xlabel("replaced by the truth", fontsize=points(SMALL + 1))
     axes.set_ylim(0, 1.15 * max([1e-3, *(np.nan_to_num(table.numbers(column)).max() for column, *_ in _ERRORS)]))
-    axes.set_ylabel("mean error at the true places (mm)", fontsize=points(SMALL + 1))
     axes.legend(ncols=3, loc="upper right", fontsize=points(SMALL), framealpha=0.9)
     return picture
