@@ -244,12 +244,22 @@ bool SurfaceContact::begin(State& state, double tolerance, double allowed, Conta
 bool SurfaceContact::stiffen(State& state, double allowed, ContactStep& step) {
   const std::size_t before = step.iterations.size();
   double factor = stiffer;
+  std::optional<State> before_softer;  // at the stiffness below that of `softer`
   for (int k = 0; k < most_stiffenings && pressure_->deepest(state.x) > allowed; ++k) {
     const State softer = state;
     const ContactMemory memory = memory_;
     if (!step.softer) step.softer = softer;
     memory_.penalty *= factor;
-    if (equilibrate(state, between_tolerance, allowed, step)) continue;
+    // The depth is inverse to the stiffness, and so is what remains of the way to rigid plates.
+    if (before_softer) {
+      state.x += (softer.x - before_softer->x) / stiffer;
+      state.p += (softer.p - before_softer->p) / stiffer;
+    }
+    if (equilibrate(state, between_tolerance, allowed, step)) {
+      before_softer = softer;
+      continue;
+    }
+    before_softer.reset();
     factor = std::sqrt(factor);
     if (fail_fast_ || factor < least_stiffer) return false;
     state = softer;
