@@ -90,7 +90,8 @@ TEST(Judgement, EachFigureOutsideItsRangeIsDoubted) {
   // A search for 50 N may end at 49.8 N.
   EXPECT_EQ(with([](ContactRecord& c) { c.plates[0].force_N = c.plates[1].force_N = 49.8; }),
             Ids{});
-  EXPECT_EQ(with([](ContactRecord& c) { c.plates[0].force_N = 49.5; }), Ids{"paddle_force_below"});
+  EXPECT_EQ(with([](ContactRecord& c) { c.plates[0].force_N = c.plates[1].force_N = 49.5; }),
+            (Ids{"paddle_force_below", "detector_force_below"}));
 }
 
 // A detector that squeezes tissue against the held cut: the paddle's force alone looks clinical.
