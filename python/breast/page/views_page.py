@@ -120,7 +120,7 @@ def views_page(run: Path, views: Views) -> str:
     scripts = [Markup((_TEMPLATES / f"scripts/{name}.js").read_text(encoding="utf-8")) for name in _SCRIPTS]
     made = page("views", _TEMPLATES, title=_title(views), banners=banners_of(run), remarks=remarks_of(run),
                 answer_title=_answer_title(views), answer=_answer(views, lines), pictures=pictures, patients=patients,
-                bar_mm=BAR_MM, pair_mm=f"{pair:.1f}",
+                bar_mm=BAR_MM, pair_mm=f"{pair:.1f}", tall_mm=f"{max([1, *(picture.size[1] for picture in (*pictures, *patients))]):.1f}",
                 row_mm=f"{max(sum(widths), pair):.1f}", animations=_animations(run), tables=_tables(run, views), data=_data(views),
                 scripts=scripts, tumour_words=_TUMOUR_WORDS[views.origin],
                 tumour_kind="artificial" if views.origin == "artificial" else "tumour", with_views=bool(views.pairs),

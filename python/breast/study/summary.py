@@ -104,8 +104,9 @@ def _compression_text(run: Path) -> str:
             name, *values, report.text("status"))
     lines = nipple_lines(run)
     if lines:
+        # The difference of the lengths as they are printed.
         text += (f"  nipple line: CC {lines[0]:.0f} mm, MLO {lines[1]:.0f} mm to the muscle or the image edge; they differ by "
-                 f"{abs(lines[0] - lines[1]):.0f} mm (clinics accept {NIPPLE_LINES_DIFFER_MM})\n")
+                 f"{abs(round(lines[0]) - round(lines[1]))} mm (clinics accept {NIPPLE_LINES_DIFFER_MM})\n")
     return text
 
 
