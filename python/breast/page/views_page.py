@@ -144,7 +144,10 @@ def _tables(run: Path, views: Views) -> list[tuple[str, list[Fact]]]:
 
 
 def _title(views: Views) -> str:
-    of = {"none": "matching CC and MLO", "given": "the tumour in CC and MLO", "artificial": "an artificial tumour in CC and MLO"}
+    names = " and ".join(image.view for image, _ in views.pairs)  # a view that is no compression is not promised
+    shown = f" in {names}" if names else ""
+    of = {"none": f"matching {names}" if len(views.pairs) == 2 else f"the model{shown}", "given": f"the tumour{shown}",
+          "artificial": f"an artificial tumour{shown}"}
     return f"{views.body.side.capitalize()} breast: {of[views.origin]}"
 
 

@@ -117,7 +117,8 @@ def _curve_text(run: Path) -> str:
     elif _text_of(run / "curve.tsv"):
         said = f"CC point to MLO curve: {run}/curve.tsv, in ParaView {run}/curve.vtp\n"
     if (run / "page.html").exists():
-        said += f"The page to read: {run}/page.html (a browser opens it); curves of every CC and MLO point: {run}/lookup.h5\n"
+        curves = "" if views_without_compression(run) else f"; curves of every CC and MLO point: {run}/lookup.h5"
+        said += f"The page to read: {run}/page.html (a browser opens it){curves}\n"
     return said
 
 
