@@ -20,7 +20,7 @@ install(FILES ${PROJECT_BINARY_DIR}/tools.tsv DESTINATION share/breast)
 
 install(FILES tools/breast.bash DESTINATION share/bash-completion/completions RENAME breast)
 install(FILES README.md CITATION.cff DESTINATION share/doc/libbreast)
-install(DIRECTORY docs DESTINATION share/doc/libbreast PATTERN man EXCLUDE)
+install(DIRECTORY docs DESTINATION share/doc/libbreast PATTERN man EXCLUDE PATTERN api EXCLUDE)
 install(CODE "set(source \"${PROJECT_SOURCE_DIR}/python\")
 set(PROJECT_VERSION ${PROJECT_VERSION})
 set(launchers \"${launchers}\")

@@ -105,7 +105,7 @@ void declare_match(Tool& tool, MatchChoices& choices) {
   tool.text(choices.materials, "--materials", "NAME|FILE",
             "with --band, the material set whose covariance (identify) replaces the priors of "
             "stiffness and supports (default: the set with which CC was solved, as the file states "
-            "it; with --priors none)");
+            "it, but none if --priors is given)");
   tool.choice(choices.geometry, "--geometry", {"parallel", "cone"},
               "X-ray beam, as in project-mammogram");
   tool.output_file(choices.table, "--table", "OUT.tsv", "one row per point");

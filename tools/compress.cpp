@@ -111,8 +111,8 @@ void declare(Tool& tool, Choices& c) {
                   "this mammogram; options given explicitly take precedence");
   tool.number(
       c.at_least, "--at-least", "PERCENT",
-      "accept a compression that stops early only from this reduction on (default: any with "
-      "--image-edge, otherwise that of the target)",
+      "smallest reduction of the thickness at which a compression that stops early is accepted "
+      "(default: with --image-edge any, otherwise the target's)",
       0, 100);
   tool.number(c.plates.standoff, "--standoff", "MM",
               "distance from the most anterior chest-wall or cut point to the plates' rounded edge "

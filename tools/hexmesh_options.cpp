@@ -90,7 +90,8 @@ void declare_hexmesh(Tool& tool, MeshChoices& choices) {
       choices.tumour, "--tumour", "auto|none|x,y,z[:radius]|FILE",
       "position of the tumour in LPS mm; with a radius, the elements inside it become tumour. "
       "FILE is a .tsv with columns x_mm y_mm z_mm [radius_mm], a point of 3D Slicer (.mrk.json or .fcsv: "
-      "the one labelled tumour, or the only one), or a label volume with tumour voxels. auto "
+      "the one labelled tumour, or the only one), or a label volume with tumour voxels, or a mask of "
+      "the tumour (one value besides 0). auto "
       "takes the tumour of the labels; if they have none, it places an artificial one at the "
       "edge of the fibroglandular tissue (landmark artificial_tumour)");
   tool.input_file(

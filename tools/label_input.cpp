@@ -61,8 +61,8 @@ void declare_label_choices(Tool& tool, const std::string& name, LabelChoices& ch
       choices.codes, "--code", "NUMBER=TISSUE|NAME=TISSUE|PRESET",
       "tissue of a value or of a segment in labels from another program, such as 3=skin, wall=3 "
       "or 'Pectoralis=wall'; the tissues are air, fat, fibroglandular, skin, muscle (or wall), "
-      "tumour, other. Or a preset of these: " +
-          join(code_preset_names(), ", ") + ", or a table as they are (pipelines/codes)");
+      "tumour, other. Instead, the name of a table of such pairs: " +
+          join(code_preset_names(), ", ") + " (pipelines/codes), or a file like these");
   tool.choice(choices.side, "--side", {"left", "right"},
               "breast that the labels show; needed only for labels from another program "
               "(segmentations of export-slicer state it)");

@@ -88,7 +88,7 @@ int main(int argc, char** argv) {
       "material set: invivo, invivo-borders, invivo-sternum, seed2008, wellman, victre, mira2018, phantom2026, or a TSV file of the "
       "same columns");
   tool.texts(c.scale, "--scale", "TISSUE=PERCENT",
-             "scale the stiffness of one tissue to this percentage of the set's");
+             "stiffness of one tissue in percent of its stiffness in the set, such as fat=150");
   tool.flag(c.curves, "--curves", "print stress curves instead of the summary");
   tool.number(c.low, "--from", "STRETCH", "smallest stretch of the curves", 0.05, 1);
   tool.number(c.high, "--to", "STRETCH", "largest stretch of the curves", 1, 10);

@@ -69,8 +69,8 @@ void declare_origin(Tool& tool, const MechanicsChoices& choices, const std::stri
            ? "A file without a model needs --materials; wall, cut"
            : "Without a model in the file and without --materials, the set is " +
                  choices.default_set + "; wall, cut") +
-      " and skin are then those of the set (otherwise the wall is held, the cut free, and the skin "
-      "does not wrinkle), the element is q1p0, the invariants are isochoric, and the tissues are "
+      " and skin are then those of the set (where it states none: the wall is held, the cut free, "
+      "and the skin does not wrinkle), the element is q1p0, the invariants are isochoric, and the tissues are "
       "exactly incompressible.");
 }
 
@@ -81,8 +81,8 @@ void declare_mechanics(Tool& tool, MechanicsChoices& choices, const std::string&
   tool.text(choices.materials, "--materials", "NAME|FILE", "material set: its name or a TSV file");
   tool.texts(
       choices.scale, "--scale", "TISSUE=PERCENT",
-      "scale the stiffness of one tissue to this percentage of that of --materials or of the "
-      "file's model, at least 10, such as fat=150");
+      "stiffness of one tissue in percent of its stiffness in --materials or, without that, in the "
+      "file's model, such as fat=150 (at least 10)");
   tool.choice(choices.element, "--element", {"q1p0", "q2p1"},
               "element type: 8 nodes and one pressure, or 27 nodes and four pressures");
   tool.choice(choices.invariants, "--invariants", {"isochoric", "plain"},
@@ -129,10 +129,11 @@ void declare_mechanics(Tool& tool, MechanicsChoices& choices, const std::string&
 }
 
 void declare_estimate(Tool& tool, std::string& estimate) {
-  tool.choice(estimate, "--estimate", {"step", "q2", "none"},
-              "estimate of the discretisation error at the landmarks. step: by two steps with "
-              "27-node elements and one matrix; q2: by a complete second solution with 27-node "
-              "elements (expensive); none: no estimate");
+  tool.choice(
+      estimate, "--estimate", {"step", "q2", "none"},
+      "estimate of the discretisation error at the landmarks. step: by two Newton steps with "
+      "27-node elements, which share one factorisation; q2: by a complete second solution "
+      "with 27-node elements (expensive); none: no estimate");
   tool.topic("solver", {"--estimate"});
 }
 

@@ -127,13 +127,18 @@ std::vector<std::string> acceptable(const std::string& tool) {
 
 std::string accept_other_help(const std::string& tool) {
   std::string text;
-  for (const PairRule& rule : pair_rules()) {
-    if (rule.tool != tool) continue;
-    for (const Shared what : rule.may_differ)
-      text += message(text.empty() ? "" : "; ", shared_name(what), ": ", rule.first, " and ",
-                      rule.second, " may be of different ", shared_name(what), "s");
+  for (const Shared what : all_shared) {
+    std::string pairs;
+    for (const PairRule& rule : pair_rules())
+      if (rule.tool == tool && std::ranges::count(rule.may_differ, what) > 0)
+        pairs += (pairs.empty() ? "" : ", or ") + rule.first + " and " + rule.second;
+    if (pairs.empty()) continue;
+    text += message(text.empty() ? "" : "; ", shared_name(what), ": ", pairs, ", of different ",
+                    shared_name(what), "s");
   }
-  return "accept a pair of files that differ in this (docs/pairs.md). " + text;
+  return "accept files that otherwise are refused because they do not belong together "
+         "(docs/pairs.md). " +
+         text;
 }
 
 std::string pairs_page(const std::string& tool) {

@@ -37,10 +37,10 @@ std::vector<Prior> default_priors() {
        "outlines of the same view on different dates differ by 2-7 mm rms after a similarity "
        "fit, in four pairs of public mammograms; each image has a share of it"},
       {"chain", 2.0, "mm",
-       "errors of segmentation, mesh and tissue: what a band without this term lacked to hold the "
-       "phantom's true errors (docs/validation.md)"},
+       "errors of segmentation, mesh and tissue: without this term the band was too narrow by "
+       "this much for the errors measured on phantoms (docs/validation.md)"},
       {"chest_wall", 1.0, "sigma",
-       "in units of the wall's own standard deviation (segment), everywhere in one direction, "
+       "the whole chest wall is shifted in one direction by its own standard deviation (segment), "
        "which is the worst case"},
       {"picking", 1.0, "mm", "assumed: marking the centre of a lesion"},
   };

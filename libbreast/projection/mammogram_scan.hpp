@@ -25,7 +25,7 @@ struct MammogramHeader {
   int columns = 0, rows = 0;
   bool bright_is_low = false;  ///< MONOCHROME1: low values are shown bright
   /// Patient directions of the image's rows (to the right) and columns (downwards), from letters
-  /// such as A\R or P\FL; not normalised, zero when absent.
+  /// such as `A\R` or `P\FL`; not normalised, zero when absent.
   Vec3 right{0, 0, 0}, down{0, 0, 0};
   /// Whether the machine states that it mirrored the image (Field of View Horizontal Flip).
   bool flipped = false;

@@ -6,6 +6,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import breast
+import numpy as np
 import small_run
 from breast.errors import BreastError
 from breast.study.score import CURVE, Score, summary_of, table_of
@@ -79,6 +81,49 @@ class OnRuns(unittest.TestCase):
                 self.assertAlmostEqual(float(row[name]), own.number_at(landmark, f"{row['where']}_error_mm"), 3)
         self.assertEqual([row["where"] for row in summary], ["stress_free", "supine"])
         self.assertEqual(len(rows.rows), 2 * (len(own.rows) - 2))
+
+    def test_the_points_of_a_study_give_the_figures_of_the_validation_pages(self):
+        """The same truth as a study would give it, without what libbreast adds to its own tables: the rows of docs/validation are
+        those of `tabulate truth-rows`, and of `cc2mlo --truth` for the places in the mammograms."""
+        run = small_run.demo()
+        shapes = {"prone": "mesh", "supine": "supine", "cc": "cc", "mlo": "mlo"}
+        own = parse_table((run.parent / "phantom" / f"{run.name}-truth" / "landmarks.tsv").read_text(), "landmarks")
+        left = [row for row in own if row["side"] == "left"]
+        loaded = breast.load(run)
+        prone = np.array([[float(row[f"prone_{axis}_mm"]) for axis in "xyz"] for row in left])
+        places = {"prone": prone, "supine": np.array([[float(row[f"supine_{axis}_mm"]) for axis in "xyz"] for row in left])}
+        # Between plates, the model's own places moved by a known vector stand for the truth, which takes an hour to solve.
+        for view in ("cc", "mlo"):
+            places[view] = loaded.transport(prone, "imaged", view).points + [2.0, -1.0, 2.0]
+        inside = np.isfinite(np.hstack(list(places.values()))).all(axis=1)
+        self.assertGreater(inside.sum(), 20)
+        with tempfile.TemporaryDirectory() as folder:
+            points = Path(folder) / "points.tsv"
+            lines = ["\t".join(["landmark", "side", *(f"{p}_{axis}_mm" for p in places for axis in "xyz")])]
+            for n in np.flatnonzero(inside):
+                lines.append("\t".join([left[n]["landmark"], "left", *(f"{x:.6f}" for p in places for x in places[p][n])]))
+            points.write_text("\n".join(lines) + "\n")
+            sealed = Path(folder) / "sealed.tsv"  # as probe and cc2mlo take it
+            sealed.write_bytes(("\n".join(lines) + "\n\r\n").encode())
+            code, (_, summary), said = scored(run, points)
+            self.assertEqual(code, 0, said)
+            found = {row["where"]: row for row in summary}
+            self.assertEqual(list(found), ["supine", "cc", "mlo", CURVE])
+            seen = Path(folder) / "run"
+            seen.mkdir()
+            files = " ".join(str(run / f"{shape}.vtkhdf") for shape in shapes.values())
+            (seen / "truth.tsv").write_text(small_run.tool(f"probe {files} --truth {sealed}", run))
+            rows = parse_table(small_run.tool(f"tabulate truth-rows {seen}", run), "truth-rows")
+            self.assertEqual([row["shape"] for row in rows], ["supine", "cc", "mlo"])
+            for row in rows:
+                for name, page in (("mean_mm", "error_mm"), ("largest_mm", "largest_mm"), ("moved_mm", "moved_mm")):
+                    self.assertEqual(f"{float(found[row['shape']][name]):.1f}", row[page], row["shape"])
+            for view in ("cc", "mlo"):
+                self.assertAlmostEqual(float(found[view]["mean_mm"]), 3.0, 2)
+            small_run.tool(f"cc2mlo {run}/cc.vtkhdf {run}/mlo.vtkhdf {folder}/c.vtp --truth {sealed} --table {folder}/c.tsv", run)
+            curve = parse_table((Path(folder) / "c-summary.tsv").read_text(), "c-summary")
+            self.assertAlmostEqual(float(found[CURVE]["mean_mm"]), curve.number_at("mean", "true_to_curve_mm"), 2)
+            self.assertAlmostEqual(float(found[CURVE]["largest_mm"]), curve.number_at("largest", "true_to_curve_mm"), 2)
 
     def test_a_study_of_lesions(self):
         run = small_run.demo()

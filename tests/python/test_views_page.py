@@ -262,12 +262,21 @@ class WhatIsSaid(unittest.TestCase):
             page = views_page(run, views)
             self.assertIn(said, words_of(page))
             self.assertIn("There is no MLO image", words_of(page))
+            self.assertIn("tumour in CC</title>", page)  # the title promises no view that is missing
             self.assertIn("it &lt;slips&gt;", page)
             self.assertTrue('id="picture-CC"' in page and 'id="picture-MLO"' not in page and 'id="data"' not in page)
         shutil.copy(run / "mlo.json", run / "cc.json")
         self.assertEqual(read_views(run, None).pairs, [])
         self.assertEqual(len(banners_of(run)), 2)
         self.assertNotIn("<figure", views_page(run, read_views(run, None)))
+
+    def test_what_buckles_lying_down_did_not_slip_between_plates(self):
+        run = small_run.scratch("buckles")
+        (run / "supine.json").write_text(json.dumps({"warnings": ["the tangent was indefinite in 2 iterations: the breast may buckle"]}))
+        (run / "cc.json").write_text(json.dumps({"warnings": ["the tangent was indefinite in 3 iterations, first at thickness 50 mm: the "
+                                                              "breast slips or buckles there"]}))
+        self.assertEqual([(remark.words.split()[:4], remark.said[0].split(":")[0]) for remark in remarks_of(run)],
+                         [("The breast may buckle".split(), "supine"), ("The breast slipped while".split(), "cc")])
 
     def test_warnings_are_said_in_a_readers_words_worst_first(self):
         run = small_run.scratch("warned")

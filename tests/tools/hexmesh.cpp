@@ -239,6 +239,16 @@ TEST_F(HexmeshTool, TumourOfLabels) {
   EXPECT_LT((read_mesh(folder_ / "mesh.vtkhdf").landmark("tumour")->imaged - Vec3(0, 45, 0)).norm(),
             0.1);
 
+  LabelVolume mask = marked;  // as a program writes it that knows nothing of tissues: 0 and 1
+  for (std::uint8_t& value : mask.tissue) value = value == std::uint8_t(Tissue::tumour) ? 1 : 0;
+  write_labels(folder_ / "mask.vtkhdf", mask);
+  ASSERT_EQ(hexmesh({"--tumour", "mask.vtkhdf"}).exit_code, 0);
+  EXPECT_EQ(Report::parse(read_text(folder_ / "r.json"), "r.json").number("volumes_ml/tumour"),
+            beside.number("volumes_ml/tumour"));
+  const ToolResult neither = hexmesh({"--tumour", "labels.vtkhdf"});
+  EXPECT_EQ(neither.exit_code, 2);
+  EXPECT_NE(neither.err.find("no tumour voxels"), std::string::npos) << neither.err;
+
   write_labels(folder_ / "labels.vtkhdf", marked);
   ASSERT_EQ(hexmesh({}).exit_code, 0);
   const Report own = Report::parse(read_text(folder_ / "r.json"), "r.json");

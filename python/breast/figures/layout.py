@@ -234,7 +234,7 @@ class Panel:
             self._arrow(origin, tip, 6, 3.5, 2)
             at = tip + 11 * arm / np.linalg.norm(arm)
             # Along an oblique beam two axes may coincide: their letters then stand side by side.
-            same = next((n for n, (other, _) in enumerate(named) if np.linalg.norm(other - at) < 8), None)
+            same = next((n for n, (other, _) in enumerate(named) if np.linalg.norm(other - at) < 14), None)
             if same is None:
                 named.append((at, letter))
             else:

@@ -187,7 +187,7 @@ def _add_axes(panel: Panel, image: Mammogram, hanging: _Hanging, rings: Sequence
         panel.line([(edge, y), (edge + 6 * outward, y)], thin)
         panel.text((edge + 10 * outward, y), f"{v:.0f}", SMALL, align=align)
     panel.text((0.5 * (low[0] + high[0]), low[1] - 36), "u (mm) from the posterior edge", SMALL, align="center")
-    panel.text((edge + 10 * outward, low[1] - 18), "v (mm)", SMALL, align=align)
+    panel.text((edge + 10 * outward, low[1] - 36), "v (mm)", SMALL, align=align)
     if image.plate_edge_mm > 1:  # where the image begins at the plates, they need no mark
         x = panel.to_pixel(hanging(np.array([image.plate_edge_mm, 0])))[0]
         panel.line([(x, low[1]), (x, high[1])], Stroke((0.7, 0.7, 0.7), 1, (3, 6)))

@@ -41,8 +41,8 @@ def main() -> int:
     tool.output_folder("--all", "FOLDER", "instead of --figure and --output: all pictures of a run that its files, given with the "
                                           "names they have in a run, allow; as FOLDER/NAME.png")
     tool.text("--only", "NAME,...", "with --all: these pictures alone, of " + ", ".join(p.name for p in PICTURES))
-    tool.choice("--accept-other", ("model",), "accept a pair of files that differ in this (docs/pairs.md). model: FILE.vti and "
-                                              "FILE.vtp may be of different models")
+    tool.choice("--accept-other", ("model",), "accept files that otherwise are refused because they do not belong "
+                                              "together (docs/pairs.md). model: FILE.vti and FILE.vtp, of different models")
     tool.check(lambda: _check(tool.args))
     tool.example("render mesh.vtkhdf --figure slices --scan scan.nrrd --labels labels.vtkhdf -o slices.png",
                  "the scan in three planes through the tumour, with the contours of the segmentation")

@@ -35,7 +35,8 @@ def remarks_of(run: Path) -> list[Remark]:
             remarks.setdefault(said, Remark(weight, said)).said.append(f"{stage}: {text}")
     cc, mlo = nipple_lines(run) or (0, 0)
     if abs(cc - mlo) > NIPPLE_LINES_DIFFER_MM:
-        said = f"From the nipple, CC shows {cc:.0f} mm and MLO {mlo:.0f} mm of the breast; in real pairs they differ by less than 10 mm."
+        said = (f"From the nipple, CC shows {cc:.0f} mm and MLO {mlo:.0f} mm of the breast; clinics accept a difference of "
+                f"{NIPPLE_LINES_DIFFER_MM} mm.")
         remarks[said] = Remark(2, said)
     return sorted(remarks.values(), key=lambda remark: remark.weight)
 

@@ -120,7 +120,7 @@ def views_page(run: Path, views: Views) -> str:
     scripts = [Markup((_TEMPLATES / f"scripts/{name}.js").read_text(encoding="utf-8")) for name in _SCRIPTS]
     made = page("views", _TEMPLATES, title=_title(views), banners=banners_of(run), remarks=remarks_of(run),
                 answer_title=_answer_title(views), answer=_answer(views, lines), pictures=pictures, patients=patients,
-                bar_mm=BAR_MM, pair_mm=f"{pair:.1f}",
+                bar_mm=BAR_MM, pair_mm=f"{pair:.1f}", tall_mm=f"{max([1, *(picture.size[1] for picture in (*pictures, *patients))]):.1f}",
                 row_mm=f"{max(sum(widths), pair):.1f}", animations=_animations(run), tables=_tables(run, views), data=_data(views),
                 scripts=scripts, tumour_words=_TUMOUR_WORDS[views.origin],
                 tumour_kind="artificial" if views.origin == "artificial" else "tumour", with_views=bool(views.pairs),
@@ -144,7 +144,10 @@ def _tables(run: Path, views: Views) -> list[tuple[str, list[Fact]]]:
 
 
 def _title(views: Views) -> str:
-    of = {"none": "matching CC and MLO", "given": "the tumour in CC and MLO", "artificial": "an artificial tumour in CC and MLO"}
+    names = " and ".join(image.view for image, _ in views.pairs)  # a view that is no compression is not promised
+    shown = f" in {names}" if names else ""
+    of = {"none": f"matching {names}" if len(views.pairs) == 2 else f"the model{shown}", "given": f"the tumour{shown}",
+          "artificial": f"an artificial tumour{shown}"}
     return f"{views.body.side.capitalize()} breast: {of[views.origin]}"
 
 
@@ -239,8 +242,8 @@ def _data(views: Views) -> dict[str, Any] | None:
 
 @kind("page", "RUN [SCAN] [SERIES] [no]",
       "the page of a run for those who read mammograms: where the tumour, or any place of one view, lies in the other, from its lookup.h5, "
-      "cc and mlo (.vtkhdf, .vti), and from reports, labels and mesh if they are there. SCAN adds the number of the MR slice and, without "
-      "'no', slices about the breast. The page holds no file names and no header data of the scan, but it shows images of the breast: give "
+      "cc and mlo (.vtkhdf, .vti), and from reports, labels and mesh if they are there. With SCAN the page states the number of the MR "
+      "slice and shows slices about the breast; 'no' leaves the slices out. The page holds no file names and no header data of the scan, but it shows images of the breast: give "
       "it only to those who may see the scan")
 def _page(request: Request) -> str:
     run, scan, series, shown = request.path(0), request.word(1), request.word(2, "0"), request.word(3, "yes")

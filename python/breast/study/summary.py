@@ -104,8 +104,9 @@ def _compression_text(run: Path) -> str:
             name, *values, report.text("status"))
     lines = nipple_lines(run)
     if lines:
+        # The difference of the lengths as they are printed.
         text += (f"  nipple line: CC {lines[0]:.0f} mm, MLO {lines[1]:.0f} mm to the muscle or the image edge; they differ by "
-                 f"{abs(lines[0] - lines[1]):.0f} mm (clinics accept {NIPPLE_LINES_DIFFER_MM})\n")
+                 f"{abs(round(lines[0]) - round(lines[1]))} mm (clinics accept {NIPPLE_LINES_DIFFER_MM})\n")
     return text
 
 
@@ -116,7 +117,8 @@ def _curve_text(run: Path) -> str:
     elif _text_of(run / "curve.tsv"):
         said = f"CC point to MLO curve: {run}/curve.tsv, in ParaView {run}/curve.vtp\n"
     if (run / "page.html").exists():
-        said += f"The page to read: {run}/page.html (a browser opens it); curves of every CC and MLO point: {run}/lookup.h5\n"
+        curves = "" if views_without_compression(run) else f"; curves of every CC and MLO point: {run}/lookup.h5"
+        said += f"The page to read: {run}/page.html (a browser opens it){curves}\n"
     return said
 
 

@@ -23,7 +23,7 @@ changed = () => {
   slice.follow(active());
   redraw();
 };
-document.getElementById('tumour-legend').hidden = !data.body.landmarks.some(mark => mark.name !== 'nipple');
+for (const id of ['tumour-legend', 'marks-tumour']) document.getElementById(id).hidden = !data.body.landmarks.some(mark => mark.name !== 'nipple');
 if (artificial) document.getElementById('tumour-name').textContent = 'artificial tumour: put there by the program, not a finding';
 document.getElementById('band-legend').hidden = !lookups.some(lookup => lookup.deviation.some(value => value > 0));
 new ResizeObserver(redraw).observe(document.getElementById('views'));
