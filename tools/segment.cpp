@@ -185,15 +185,16 @@ bool holds_points(const std::filesystem::path& file) {
 }
 
 /// Muscle is the chest wall; a map without muscle is refused before the scan is read.
-LabelVolume read_wall_labels(const std::filesystem::path& file, const TissueCodes& codes) {
+LabelVolume read_wall_labels(const std::filesystem::path& file, const TissueCodes& codes,
+                             Run& run) {
   LabelVolume labels;
   if (codes.empty() && file.extension() != ".vtkhdf" && !is_segmentation_file(file)) {
     // Only the code of the chest wall matters: a map may have other codes of its own.
     TissueCodes wall;
     wall.values[int(Tissue::muscle)] = Tissue::muscle;
-    labels = read_tissues(file, wall);
+    labels = read_tissues(file, wall, run);
   } else {
-    labels = read_tissues(file, codes);
+    labels = read_tissues(file, codes, run);
   }
   if (std::find(labels.tissue.begin(), labels.tissue.end(), std::uint8_t(Tissue::muscle)) ==
       labels.tissue.end()) {
@@ -212,10 +213,10 @@ struct GivenWall {
   std::optional<LabelVolume> labels;
 };
 
-GivenWall read_wall(const std::filesystem::path& file, const TissueCodes& codes) {
+GivenWall read_wall(const std::filesystem::path& file, const TissueCodes& codes, Run& run) {
   if (holds_points(file)) return {read_points(file), {}, {}};
   if (file.extension() == ".vtp") return {{}, read_surface(file), {}};
-  return {{}, {}, read_wall_labels(file, codes)};
+  return {{}, {}, read_wall_labels(file, codes, run)};
 }
 
 Origin origin_of(const std::filesystem::path& file, const GivenWall& wall) {
@@ -278,7 +279,7 @@ void run_segment(const Choices& c, Run& run) {
   options.contrast = contrast_from_name(c.contrast);
   std::optional<GivenWall> wall;  // before the scan: what is wrong with it is said at once
   if (!c.wall.empty()) {
-    wall = read_wall(c.wall, parse_tissue_codes(c.codes));
+    wall = read_wall(c.wall, parse_tissue_codes(c.codes), run);
     take_wall(c.wall, *wall, options);
   }
   VolumeSource source;
