@@ -64,7 +64,7 @@ void declare(Tool& tool, Choices& c) {
   tool.input_file(
       c.wall, "--chest-wall", "FILE|POINTS",
       "corrected chest wall: a segmentation of 3D Slicer (.seg.nrrd, segment 'Chest wall'), a "
-      "label map (code 4 behind the wall), a surface (.vtp; of a file written by --points, its "
+      "label map (muscle, code 4, whose back is kept if it shows one), a surface (.vtp; of a file written by --points, its "
       "chest-wall points), or clicked points from 3D Slicer (.mrk.json or .fcsv) or in a table with "
       "columns x_mm y_mm z_mm (.tsv)");
   tool.texts(c.codes, "--code", "NUMBER=TISSUE|NAME=TISSUE|PRESET",
