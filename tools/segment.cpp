@@ -109,7 +109,7 @@ void declare(Tool& tool, Choices& c) {
               "backwards if positive, to see the effect of its uncertainty",
               -3, 3);
   tool.topic("contrast", {"--contrast", "--fat", "--fat-series", "--also", "--also-series"});
-  tool.topic("chest wall", {"--chest-wall", "--code", "--accept-other", "--chest-wall-shift"});
+  tool.topic("chest wall", {"--chest-wall", "--code", "--chest-wall-shift"});
   tool.topic("further outputs", {"--points", "--overlay", "--measures"});
   tool.basic({"--side", "--posture", "--series", "--list", "--contrast", "--fat", "--also",
               "--chest-wall", "--overlay", "--measures"});
@@ -252,12 +252,17 @@ void check_posture(const std::string& position, const std::string& posture, Run&
 }
 
 /// Another scan of the same examination, if one is given.
-std::optional<Volume<float>> read_other(const std::filesystem::path& file, const ScanChoice& choice,
+std::optional<Volume<float>> read_other(const std::string& option,
+                                        const std::filesystem::path& file, const ScanChoice& choice,
+                                        const Origin& mr, Pairs& pairs,
                                         std::vector<Run::Input>& inputs, Run& run) {
   if (file.empty()) return {};
   VolumeSource source;
   Volume<float> scan = read_volume(file, choice, &source);
   for (const std::string& remark : source.remarks) run.remark(remark);
+  Origin other = origin_of_scan(file, source.content_sha256, scan.grid);
+  other.patient = source.patient_id;
+  if (!mr.patient.empty() || !other.patient.empty()) pairs.check("MR", mr, option, other);
   inputs.push_back({file, source.content_sha256, nullptr});
   return scan;
 }
@@ -290,13 +295,17 @@ void run_segment(const Choices& c, Run& run) {
   for (const std::string& remark : source.remarks) run.remark(remark);
   check_posture(source.patient_position, c.posture, run);
   std::vector<Run::Input> inputs{{c.scan, source.content_sha256, nullptr}};
-  options.fat = read_other(c.fat, ScanChoice(c.fat_series, options.side), inputs, run);
-  options.also = read_other(c.also, ScanChoice(c.also_series, options.side), inputs, run);
+  Origin mr = origin_of_scan(c.scan, source.content_sha256, scan.grid);
+  mr.side = options.side;
+  mr.patient = source.patient_id;
+  Pairs pairs = pairs_of("segment", run, c.accept_other);
+  options.fat =
+      read_other("--fat", c.fat, ScanChoice(c.fat_series, options.side), mr, pairs, inputs, run);
+  options.also =
+      read_other("--also", c.also, ScanChoice(c.also_series, options.side), mr, pairs, inputs, run);
   if (wall) {
-    Origin mr = origin_of_scan(c.scan, source.content_sha256, scan.grid);
-    mr.side = options.side;
     const Origin given = origin_of(c.wall, *wall);
-    pairs_of("segment", run, c.accept_other).check("MR", mr, "--chest-wall", given);
+    pairs.check("MR", mr, "--chest-wall", given);
     inputs.push_back({c.wall, given.content_sha256, nullptr});
   }
   Segmentation result = segment_breast(scan, options, run.progress(), run.timer());
