@@ -138,23 +138,37 @@ TEST(DicomContrasts, TellTheImagesOfADixonSeriesApart) {
   }
 }
 
-// Projections of a scan among its own frames, at places of theirs.
-TEST(DicomContrasts, DerivedFramesDoNotDisturbTheScan) {
-  ExportImages scan, derived;
-  derived.type = "DERIVED\\PRIMARY\\MAX_IP\\NONE";
-  derived.first_instance = 500;
+/// Three slices of derived images from that place on, mm along the axis.
+void write_derived(const std::filesystem::path& folder, const std::string& type, double place) {
+  ExportImages derived;
+  derived.type = type;
+  derived.first_instance = 500 + int(place);
   ShortVolume few = volume_of(300);
   few.grid.size[2] = 3;
+  few.grid.origin.z() += place;
   few.voxels.resize(few.grid.voxels());
-  const ShortVolume volume = volume_of(0);
-  const ScratchFolder folder;
-  write_slices(folder / "all", "a", "", volume, scan, {});
-  write_slices(folder / "all", "b", "", few, derived, {});
-  VolumeSource source;
-  const Volume<float> read = read_volume(folder.path(), {}, &source);
-  EXPECT_TRUE(std::equal(read.voxels.begin(), read.voxels.end(), volume.voxels.begin(),
-                         volume.voxels.end()));
-  EXPECT_EQ(source.contrast, "T1");
+  write_slices(folder, type.substr(16, 3) + std::to_string(int(place)), "", few, derived, {});
+}
+
+// Projections and maps of a scan among its own images: at some of its places, and between them.
+TEST(DicomContrasts, DerivedImagesDoNotDisturbTheScan) {
+  const std::string projection = "DERIVED\\PRIMARY\\MAX_IP\\NONE",
+                    map = "DERIVED\\PRIMARY\\FF\\NONE",
+                    relaxation = "DERIVED\\PRIMARY\\R2_STAR\\NONE";
+  const std::vector<std::vector<std::pair<std::string, double>>> cases = {
+      {{projection, 0}}, {{projection, 1.7}}, {{map, 0}}, {{map, 0}, {relaxation, 40}}};
+  for (const auto& beside : cases) {
+    SCOPED_TRACE(beside.back().first + " at " + std::to_string(beside.back().second));
+    const ShortVolume volume = volume_of(0);
+    const ScratchFolder folder;
+    write_slices(folder / "all", "a", "", volume, {}, {});
+    for (const auto& [type, place] : beside) write_derived(folder / "all", type, place);
+    VolumeSource source;
+    const Volume<float> read = read_volume(folder.path(), {}, &source);
+    EXPECT_TRUE(std::equal(read.voxels.begin(), read.voxels.end(), volume.voxels.begin(),
+                           volume.voxels.end()));
+    EXPECT_EQ(source.contrast, "T1");
+  }
 }
 
 }  // namespace
