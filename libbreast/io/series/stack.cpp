@@ -161,7 +161,7 @@ Vec3 DicomStack::extent() const {
 }
 
 std::string DicomStack::label() const {
-  std::string text = files == int(slices.size()) ? message(files, " files")
+  std::string text = files == int(slices.size()) ? message(files, files == 1 ? " file" : " files")
                                                  : message(slices.size(), " frames in ", files,
                                                            files == 1 ? " file" : " files");
   text += message(" of ", first().columns, " x ", first().rows, " pixels, series number ",
