@@ -29,8 +29,9 @@ bool is_surface(const std::filesystem::path& file) {
 
 /// `volume` (may be null) receives a volume of another program unchanged.
 LabelVolume read_any_labels(const std::filesystem::path& file, const TissueCodes& codes,
-                            Volume<float>* volume) {
-  if (file.extension() == ".vtkhdf" || is_segmentation_file(file)) return read_tissues(file, codes);
+                            Volume<float>* volume, Run& run) {
+  if (file.extension() == ".vtkhdf" || is_segmentation_file(file))
+    return read_tissues(file, codes, run);
   VolumeSource source;
   const Volume<float> foreign = read_volume(file, 0, &source);
   if (volume != nullptr) *volume = foreign;
@@ -154,11 +155,11 @@ int main(int argc, char** argv) {
     if (is_surface(given_file))
       given = read_surface(given_file);
     else
-      given_labels = read_any_labels(given_file, codes, nullptr);
+      given_labels = read_any_labels(given_file, codes, nullptr, run);
     if (is_surface(truth_file))
       truth = read_surface(truth_file);
     else
-      truth_labels = read_any_labels(truth_file, codes, &foreign);
+      truth_labels = read_any_labels(truth_file, codes, &foreign, run);
     const Origin of_truth = origin_of(truth_file, truth_labels, truth);
     pairs.check("GIVEN", origin_of(given_file, given_labels, given), "TRUTH", of_truth);
     if (truth_labels && !region_file.empty())

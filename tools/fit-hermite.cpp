@@ -72,7 +72,7 @@ void run_fit(const FitChoices& choices, Run& run) {
   const LabelInput input = [&] {
     const Timer::Scope phase(run.timer(), "read");
     Pairs pairs = pairs_of("fit-hermite", run, choices.foreign.accept_other);
-    return read_label_input(choices.labels, choices.foreign, pairs);
+    return read_label_input(choices.labels, choices.foreign, pairs, run);
   }();
   const LabelVolume& labels = input.labels;
   FitReport fit;

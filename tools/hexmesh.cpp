@@ -27,7 +27,8 @@ using namespace breast;
 namespace {
 
 /// What --tumour names; nothing for "none" and "auto".
-std::optional<Tumour> given_tumour(const std::string& given, const Origin& labels, Pairs& pairs) {
+std::optional<Tumour> given_tumour(const std::string& given, const Origin& labels, Pairs& pairs,
+                                   Run& run) {
   if (given == "none" || given == "auto") return std::nullopt;
   if (!std::filesystem::exists(given)) return parse_tumour(given);
   if (std::filesystem::path(given).extension() == ".tsv") return read_tumour(given);
@@ -35,7 +36,7 @@ std::optional<Tumour> given_tumour(const std::string& given, const Origin& label
     const MarkupPoint point = point_named(read_markups(given), "tumour", "--tumour " + given);
     return Tumour{point.at, 0, "point of 3D Slicer", false};
   }
-  const LabelVolume marked = read_tissues(given, {});
+  const LabelVolume marked = read_tissues(given, {}, run);
   pairs.check("LABELS", labels, "--tumour", origin_of(given, marked, false));
   return tumour_of(marked, given);
 }
@@ -205,13 +206,13 @@ void add_muscle(const MeshChoices& choices, const LabelVolume& labels, HexMesh& 
 void run_hexmesh(const MeshChoices& choices, Run& run) {
   const BreastGeometry geometry = read_geometry(choices.geometry);
   Pairs pairs = pairs_of("hexmesh", run, choices.foreign.accept_other);
-  const LabelInput input = read_label_input(choices.labels, choices.foreign, pairs);
+  const LabelInput input = read_label_input(choices.labels, choices.foreign, pairs, run);
   const LabelVolume& labels = input.labels;
   const Origin origin = origin_of(choices.labels, labels);
   pairs.check("GEOMETRY", origin_of(choices.geometry, geometry), "LABELS", origin);
   std::vector<MarkupPoint> points;
   if (!choices.landmarks.empty()) points = named_points(choices.landmarks);
-  std::optional<Tumour> tumour = given_tumour(choices.tumour, origin, pairs);
+  std::optional<Tumour> tumour = given_tumour(choices.tumour, origin, pairs, run);
   const double skin_mm = choices.skin == "measured" ? measured_skin_thickness(labels, geometry)
                                                     : parse_skin_thickness(choices.skin);
   judge_agreement(choices, geometry, labels, run);

@@ -24,13 +24,13 @@ std::optional<Side> side_of(const LabelChoices& choices) {
 }
 
 // A volume of codes without names, for which the user must state the side.
-LabelVolume coded_labels(const fs::path& file, const LabelChoices& choices) {
+LabelVolume coded_labels(const fs::path& file, const LabelChoices& choices, Run& run) {
   const auto side = side_of(choices);
   if (!side && choices.native.empty()) {
     throw input_error(file.string(),
                       ": does not state which breast it shows: give --side left or right");
   }
-  LabelVolume labels = read_tissues(file, parse_tissue_codes(choices.codes));
+  LabelVolume labels = read_tissues(file, parse_tissue_codes(choices.codes), run);
   if (side) labels.side = *side;
   for (const std::uint8_t tissue : labels.tissue)
     labels.fibroglandular_fraction.push_back(Tissue(tissue) == Tissue::fibroglandular ? 1.0F
@@ -43,10 +43,16 @@ struct ForeignLabels {
   bool states_side = true;  ///< otherwise it is that of the native labels
 };
 
-ForeignLabels foreign_labels(const fs::path& file, const LabelChoices& choices) {
+SegmentedVolume read_segments(const fs::path& file, Run& run) {
+  SegmentedVolume segmentation = read_segmentation(file);
+  if (!segmentation.remark.empty()) run.remark(segmentation.remark);
+  return segmentation;
+}
+
+ForeignLabels foreign_labels(const fs::path& file, const LabelChoices& choices, Run& run) {
   std::optional<Side> side = side_of(choices);
-  if (!is_segmentation_file(file)) return {coded_labels(file, choices), side.has_value()};
-  const SegmentedVolume segmentation = read_segmentation(file);
+  if (!is_segmentation_file(file)) return {coded_labels(file, choices, run), side.has_value()};
+  const SegmentedVolume segmentation = read_segments(file, run);
   if (!side) side = tagged_side(segmentation.segments);
   const bool states_side = side.has_value();
   if (!side && !choices.native.empty()) side = Side::left;
@@ -75,11 +81,11 @@ void declare_label_choices(Tool& tool, const std::string& name, LabelChoices& ch
   tool.topic("labels from another program", {"--code", "--side", "--native", "--accept-other"});
 }
 
-LabelVolume read_tissues(const fs::path& file, const TissueCodes& codes) {
+LabelVolume read_tissues(const fs::path& file, const TissueCodes& codes, Run& run) {
   if (is_native(file)) return read_labels(file);
   LabelVolume labels;
   if (is_segmentation_file(file)) {
-    const SegmentedVolume segmentation = read_segmentation(file);
+    const SegmentedVolume segmentation = read_segments(file, run);
     labels = translate_labels(segmentation.values,
                               codes_of(segmentation.segments, codes, file.string()), file.string());
     labels.content_sha256 = segmentation.content_sha256;
@@ -92,7 +98,8 @@ LabelVolume read_tissues(const fs::path& file, const TissueCodes& codes) {
   return labels;
 }
 
-LabelInput read_label_input(const fs::path& file, const LabelChoices& choices, Pairs& pairs) {
+LabelInput read_label_input(const fs::path& file, const LabelChoices& choices, Pairs& pairs,
+                            Run& run) {
   LabelInput input;
   if (is_native(file)) {
     if (!choices.codes.empty() || !choices.side.empty() || !choices.native.empty()) {
@@ -103,7 +110,7 @@ LabelInput read_label_input(const fs::path& file, const LabelChoices& choices, P
     input.labels = read_labels(file);
     return input;
   }
-  ForeignLabels foreign = foreign_labels(file, choices);
+  ForeignLabels foreign = foreign_labels(file, choices, run);
   input.labels = std::move(foreign.labels);
   if (choices.native.empty()) return input;
   const LabelVolume native = read_labels(choices.native);

@@ -34,12 +34,13 @@ struct LabelInput {
 /// Reads labels. Throws Error (input) for an unknown segment or code, labels without a side, a map at
 /// another position, and native labels from which the others were not made.
 LabelInput read_label_input(const std::filesystem::path& file, const LabelChoices& choices,
-                            Pairs& pairs);
+                            Pairs& pairs, Run& run);
 /// The input files, for Run::history.
 std::vector<Run::Input> inputs_of(const std::filesystem::path& file, const LabelChoices& choices,
                                   const LabelInput& input);
 
-/// Reads only the tissues of any label map, and what it says of its origin.
-LabelVolume read_tissues(const std::filesystem::path& file, const TissueCodes& codes);
+/// Reads only the tissues of any label map, and what it says of its origin. Remarks on how it was read go to
+/// the run's user.
+LabelVolume read_tissues(const std::filesystem::path& file, const TissueCodes& codes, Run& run);
 
 }  // namespace breast

@@ -52,7 +52,7 @@ void run_projection(const Choices& choices, Run& run) {
   LabelInput labels;
   if (!choices.labels.empty()) {
     Pairs pairs = pairs_of("project-mammogram", run, choices.foreign.accept_other);
-    labels = read_label_input(choices.labels, choices.foreign, pairs);
+    labels = read_label_input(choices.labels, choices.foreign, pairs, run);
     pairs.check("COMPRESSED", origin_of(choices.mesh, mesh), "--labels",
                 origin_of(choices.labels, labels.labels));
     options.labels = &labels.labels;

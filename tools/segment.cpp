@@ -64,7 +64,7 @@ void declare(Tool& tool, Choices& c) {
   tool.input_file(
       c.wall, "--chest-wall", "FILE|POINTS",
       "corrected chest wall: a segmentation of 3D Slicer (.seg.nrrd, segment 'Chest wall'), a "
-      "label map (code 4 behind the wall), a surface (.vtp; of a file written by --points, its "
+      "label map (muscle, code 4, whose back is kept if it shows one), a surface (.vtp; of a file written by --points, its "
       "chest-wall points), or clicked points from 3D Slicer (.mrk.json or .fcsv) or in a table with "
       "columns x_mm y_mm z_mm (.tsv)");
   tool.texts(c.codes, "--code", "NUMBER=TISSUE|NAME=TISSUE|PRESET",
@@ -109,7 +109,7 @@ void declare(Tool& tool, Choices& c) {
               "backwards if positive, to see the effect of its uncertainty",
               -3, 3);
   tool.topic("contrast", {"--contrast", "--fat", "--fat-series", "--also", "--also-series"});
-  tool.topic("chest wall", {"--chest-wall", "--code", "--accept-other", "--chest-wall-shift"});
+  tool.topic("chest wall", {"--chest-wall", "--code", "--chest-wall-shift"});
   tool.topic("further outputs", {"--points", "--overlay", "--measures"});
   tool.basic({"--side", "--posture", "--series", "--list", "--contrast", "--fat", "--also",
               "--chest-wall", "--overlay", "--measures"});
@@ -185,15 +185,16 @@ bool holds_points(const std::filesystem::path& file) {
 }
 
 /// Muscle is the chest wall; a map without muscle is refused before the scan is read.
-LabelVolume read_wall_labels(const std::filesystem::path& file, const TissueCodes& codes) {
+LabelVolume read_wall_labels(const std::filesystem::path& file, const TissueCodes& codes,
+                             Run& run) {
   LabelVolume labels;
   if (codes.empty() && file.extension() != ".vtkhdf" && !is_segmentation_file(file)) {
     // Only the code of the chest wall matters: a map may have other codes of its own.
     TissueCodes wall;
     wall.values[int(Tissue::muscle)] = Tissue::muscle;
-    labels = read_tissues(file, wall);
+    labels = read_tissues(file, wall, run);
   } else {
-    labels = read_tissues(file, codes);
+    labels = read_tissues(file, codes, run);
   }
   if (std::find(labels.tissue.begin(), labels.tissue.end(), std::uint8_t(Tissue::muscle)) ==
       labels.tissue.end()) {
@@ -212,10 +213,10 @@ struct GivenWall {
   std::optional<LabelVolume> labels;
 };
 
-GivenWall read_wall(const std::filesystem::path& file, const TissueCodes& codes) {
+GivenWall read_wall(const std::filesystem::path& file, const TissueCodes& codes, Run& run) {
   if (holds_points(file)) return {read_points(file), {}, {}};
   if (file.extension() == ".vtp") return {{}, read_surface(file), {}};
-  return {{}, {}, read_wall_labels(file, codes)};
+  return {{}, {}, read_wall_labels(file, codes, run)};
 }
 
 Origin origin_of(const std::filesystem::path& file, const GivenWall& wall) {
@@ -251,12 +252,17 @@ void check_posture(const std::string& position, const std::string& posture, Run&
 }
 
 /// Another scan of the same examination, if one is given.
-std::optional<Volume<float>> read_other(const std::filesystem::path& file, const ScanChoice& choice,
+std::optional<Volume<float>> read_other(const std::string& option,
+                                        const std::filesystem::path& file, const ScanChoice& choice,
+                                        const Origin& mr, Pairs& pairs,
                                         std::vector<Run::Input>& inputs, Run& run) {
   if (file.empty()) return {};
   VolumeSource source;
   Volume<float> scan = read_volume(file, choice, &source);
   for (const std::string& remark : source.remarks) run.remark(remark);
+  Origin other = origin_of_scan(file, source.content_sha256, scan.grid);
+  other.patient = source.patient_id;
+  if (!mr.patient.empty() || !other.patient.empty()) pairs.check("MR", mr, option, other);
   inputs.push_back({file, source.content_sha256, nullptr});
   return scan;
 }
@@ -278,7 +284,7 @@ void run_segment(const Choices& c, Run& run) {
   options.contrast = contrast_from_name(c.contrast);
   std::optional<GivenWall> wall;  // before the scan: what is wrong with it is said at once
   if (!c.wall.empty()) {
-    wall = read_wall(c.wall, parse_tissue_codes(c.codes));
+    wall = read_wall(c.wall, parse_tissue_codes(c.codes), run);
     take_wall(c.wall, *wall, options);
   }
   VolumeSource source;
@@ -289,13 +295,17 @@ void run_segment(const Choices& c, Run& run) {
   for (const std::string& remark : source.remarks) run.remark(remark);
   check_posture(source.patient_position, c.posture, run);
   std::vector<Run::Input> inputs{{c.scan, source.content_sha256, nullptr}};
-  options.fat = read_other(c.fat, ScanChoice(c.fat_series, options.side), inputs, run);
-  options.also = read_other(c.also, ScanChoice(c.also_series, options.side), inputs, run);
+  Origin mr = origin_of_scan(c.scan, source.content_sha256, scan.grid);
+  mr.side = options.side;
+  mr.patient = source.patient_id;
+  Pairs pairs = pairs_of("segment", run, c.accept_other);
+  options.fat =
+      read_other("--fat", c.fat, ScanChoice(c.fat_series, options.side), mr, pairs, inputs, run);
+  options.also =
+      read_other("--also", c.also, ScanChoice(c.also_series, options.side), mr, pairs, inputs, run);
   if (wall) {
-    Origin mr = origin_of_scan(c.scan, source.content_sha256, scan.grid);
-    mr.side = options.side;
     const Origin given = origin_of(c.wall, *wall);
-    pairs_of("segment", run, c.accept_other).check("MR", mr, "--chest-wall", given);
+    pairs.check("MR", mr, "--chest-wall", given);
     inputs.push_back({c.wall, given.content_sha256, nullptr});
   }
   Segmentation result = segment_breast(scan, options, run.progress(), run.timer());

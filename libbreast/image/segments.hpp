@@ -27,6 +27,7 @@ struct SegmentedVolume {
   Volume<float> values;
   std::vector<Segment> segments;
   std::string content_sha256;  ///< of grid and voxels
+  std::string remark;          ///< what its user should know of how it was read; mostly ""
 };
 
 /// Tissues of another program's values or named segments; empty if none were given.

@@ -19,7 +19,8 @@ struct VolumeSource {
   std::string
       description;  ///< "nrrd", "DICOM series 3: 40 files of 512 x 512 pixels, series number 7"
   std::string
-      patient_position;  ///< of a DICOM series, as "HFP" (head first, prone); "" if not stated
+      patient_position;    ///< of a DICOM series, as "HFP" (head first, prone); "" if not stated
+  std::string patient_id;  ///< of a DICOM series, only for comparison; "" if not stated
   std::string
       contrast;  ///< of a DICOM series, as its header states it: "T1", "water"; "not stated"
   /// What was taken and what was passed over in a DICOM folder, a line each.

@@ -61,6 +61,8 @@ std::string shared_name(Shared what) {
 const std::vector<PairRule>& pair_rules() {
   using enum Shared;
   static const std::vector<PairRule> rules = {
+      {"segment", "MR", "--fat", {patient}, {patient}},
+      {"segment", "MR", "--also", {patient}, {patient}},
       {"segment", "MR", "--chest-wall", {scan, side, geometry}, {scan}},
       {"fit-hermite", "LABELS", "--native", {scan, side, geometry}, {scan}},
       {"hexmesh", "GEOMETRY", "LABELS", {scan, side}, {scan}},

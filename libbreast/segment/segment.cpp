@@ -550,6 +550,8 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
   result.compact_dark_mm =
       std::max(0.0f, -*std::min_element(inside_gland.voxels.begin(), inside_gland.voxels.end()));
   result.labels = labels_of(work, options.side);
+  if (options.wall_labels)
+    result.muscle_back_percent = 100 * end_muscle(result.labels, *options.wall_labels);
   result.labels.midline_mm =
       work.scan.grid.to_patient(Vec3(work.torso.midline, 0, 0.5 * work.scan.grid.size[2]))[0];
   const Nipple nipple = find_nipple(work.breast, work.body.mask, options.posture);

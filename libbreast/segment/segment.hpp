@@ -66,9 +66,10 @@ struct Segmentation {
   double bias_range = 1;                     ///< brightest over dimmest fat, 1 %-99 % of the breast
   double muscle_ratio = 0, gland_ratio = 0;  ///< brightness relative to fat
   double fat_fraction = 0, fat_fraction_grown = 0, fibroglandular_agreement = 0;
-  double wall_confidence_mean = 0;                       ///< over the breast's columns
-  double wall_sigma_mean = 0, wall_sigma_p95 = 0;        ///< mm, over the breast's columns
-  double wall_confident_percent = 0;                     ///< columns with confidence above 0.5
+  double wall_confidence_mean = 0;                 ///< over the breast's columns
+  double wall_sigma_mean = 0, wall_sigma_p95 = 0;  ///< mm, over the breast's columns
+  double muscle_back_percent = 0;     ///< columns in which the muscle of wall_labels has a back
+  double wall_confident_percent = 0;  ///< columns with confidence above 0.5
   double sternal_thickness = 0, greatest_thickness = 0;  ///< mm
   double nipple_from_extreme = 0;                        ///< mm
   Vec3 nipple_base{0, 0, 0};  ///< patient mm, on the areola's surface beneath the tip

@@ -145,6 +145,15 @@ void without_view(Export& e) {
   e.view_code_instead = "000000000";
 }
 
+/// A tomosynthesis, or a cine.
+void several_frames(Export& e) {
+  e.more.text(0x00280008, "IS", "2");
+  e.pixels.emplace_back([](Pixels& image) {
+    std::vector<std::uint16_t> again = image.values;
+    image.values.insert(image.values.end(), again.begin(), again.end());
+  });
+}
+
 /// In the order in which they are added to an image.
 const std::vector<Feature>& features() {
   static const std::vector<Feature> all = {
@@ -218,6 +227,8 @@ const std::vector<Feature>& features() {
        }},
       {"no orientation", "turned", "", "orientation is missing", text(0x00200020, "CS", "")},
       {"rotated by 90", "turned", "is it rotated", "", drawn(rotate)},
+      {"one frame", "frames", "", "", text(0x00280008, "IS", "1")},
+      {"several frames", "frames", "frames; one is expected", "", several_frames},
   };
   return all;
 }

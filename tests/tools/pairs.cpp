@@ -3,10 +3,12 @@
 // line that names both files, and takes one that does.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <map>
 
+#include "fixtures/dicom_export.hpp"
 #include "fixtures/patient_files.hpp"
 #include "fixtures/run_tool.hpp"
 #include "fixtures/scratch_folder.hpp"
@@ -29,6 +31,13 @@ struct Trial {
 
 const std::map<std::string, Trial>& trials() {
   static const std::map<std::string, Trial> list = {
+      {"segment MR --fat",
+       {"segment dicom o.vtkhdf --side left --fat dicom",
+        {"segment dicom o.vtkhdf --side left --fat dicom-other"},
+        false}},
+      {"segment MR --also",
+       {"segment dicom o.vtkhdf --side left --also dicom",
+        {"segment dicom o.vtkhdf --side left --also dicom-other"}}},
       {"segment MR --chest-wall",
        {"segment body.nrrd o.vtkhdf --side left --chest-wall body-labels.vtkhdf",
         {"segment body.nrrd o.vtkhdf --side left --chest-wall other-labels.vtkhdf",
@@ -238,9 +247,20 @@ class Pair : public ::testing::TestWithParam<PairRule> {
     bytes.replace(at, old.size(), now);
     std::ofstream(*folder_ / to, std::ios::binary) << bytes;
   }
+  // One scan as series of two patients.
+  static void write_series(const Volume<float>& body) {
+    Volume<std::int16_t> volume(body.grid);
+    for (std::size_t n = 0; n < body.voxels.size(); ++n)
+      volume.voxels[n] = std::int16_t(std::lround(body.voxels[n]));
+    fixtures::ExportImages images;
+    fixtures::write_slices(*folder_ / "dicom", "s", ".dcm", volume, images, {});
+    images.patient = "43";
+    fixtures::write_slices(*folder_ / "dicom-other", "s", ".dcm", volume, images, {});
+  }
   // Two scans that can be segmented, their labels, and volumes and points at another place.
   static void write_volumes() {
     Volume<float> body = testing::SyntheticScan::coarse().image();
+    write_series(body);
     for (const std::string name : {"body", "other"}) {
       write_volume(*folder_ / (name + ".nrrd"), body);
       must("segment " + name + ".nrrd " + name + "-labels.vtkhdf --side left --points " + name +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // DICOM Segmentation objects as other programs write them: segments in frames of any order, without the
-// slices that show none, of one bit or of fractions; and what is refused.
+// slices that show none, of one bit, of fractions or as a map; and what is refused.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -19,9 +19,12 @@
 namespace breast {
 namespace {
 
+constexpr int map_padding = 500;  ///< the value of no segment in a map
+
 struct Written {
   std::vector<std::string> labels = {"Chest wall", "Dense_1", "Fat"};
-  bool fractional = false, states_distance = true, overlap = false, one_label_less = false;
+  bool fractional = false, map = false;  ///< else BINARY
+  bool states_distance = true, overlap = false, one_label_less = false;
   double one_aside = 0, one_between = 0;  ///< mm
 };
 
@@ -43,6 +46,43 @@ std::string triple(const Vec3& v) {
   return format_number(v.x()) + "\\" + format_number(v.y()) + "\\" + format_number(v.z());
 }
 
+/// The object without its frames and pixels.
+DatasetBuilder header_of(const Written& how, std::size_t frames,
+                         const std::vector<DatasetBuilder>& segments) {
+  const std::uint16_t bits = how.map ? 16 : how.fractional ? 8 : 1;
+  DatasetBuilder set;
+  set.text(0x00080016, "UI",
+           how.map ? "1.2.840.10008.5.1.4.1.1.66.7" : "1.2.840.10008.5.1.4.1.1.66.4")
+      .text(0x00080018, "UI", "2.25.11")
+      .text(0x00080060, "CS", "SEG")
+      .unsigned_short(0x00280002, 1)
+      .text(0x00280004, "CS", "MONOCHROME2")
+      .text(0x00280008, "IS", std::to_string(frames))
+      .unsigned_short(0x00280010, std::uint16_t(oblique().size[1]))
+      .unsigned_short(0x00280011, std::uint16_t(oblique().size[0]))
+      .unsigned_short(0x00280100, bits)
+      .unsigned_short(0x00280101, bits)
+      .unsigned_short(0x00280102, std::uint16_t(bits - 1))
+      .unsigned_short(0x00280103, 0)
+      .text(0x00620001, "CS",
+            how.map          ? "LABELMAP"
+            : how.fractional ? "FRACTIONAL"
+                             : "BINARY")
+      .sequence(0x00620002, segments);
+  if (how.fractional) set.unsigned_short(0x0062000e, 200);
+  if (how.map) set.unsigned_short(0x00280120, map_padding);
+  return set;
+}
+
+DatasetBuilder frame_of(const Vec3& place, int segment) {
+  DatasetBuilder position, content, frame;
+  position.text(0x00200032, "DS", triple(place));
+  frame.sequence(0x00209113, {position});
+  if (segment == 0) return frame;
+  content.unsigned_short(0x0062000b, std::uint16_t(segment));
+  return frame.sequence(0x0062000a, {content});
+}
+
 void write(const std::filesystem::path& file, const Written& how) {
   const Grid grid = oblique();
   std::vector<DatasetBuilder> segments, frames;
@@ -52,57 +92,43 @@ void write(const std::filesystem::path& file, const Written& how) {
     if (!how.one_label_less || n > 0) item.text(0x00620005, "LO", how.labels[n]);
     segments.push_back(item);
   }
-  std::vector<bool> pixels;
+  std::vector<int> pixels;  // the segment, or whether it is of that of the frame
   for (const int k : {5, 0, 3, 1, 4}) {
-    for (int segment = 1; segment <= 3; ++segment) {
+    for (int segment = how.map ? 0 : 1; segment <= (how.map ? 0 : 3); ++segment) {
       const bool last = k == 4 && segment == 3;
-      DatasetBuilder place, content, frame;
       const Vec3 moved = last ? Vec3(how.one_aside * grid.direction.col(0) +
                                      how.one_between * grid.direction.col(2))
                               : Vec3::Zero();
-      place.text(0x00200032, "DS", triple(grid.to_patient(Vec3(0, 0, k)) + moved));
-      content.unsigned_short(0x0062000b, std::uint16_t(segment));
-      frame.sequence(0x00209113, {place}).sequence(0x0062000a, {content});
-      frames.push_back(frame);
+      frames.push_back(frame_of(grid.to_patient(Vec3(0, 0, k)) + moved, segment));
       for (int j = 0; j < grid.size[1]; ++j) {
-        for (int i = 0; i < grid.size[0]; ++i)
-          pixels.push_back(value_at(i, j, k) == segment || (how.overlap && value_at(i, j, k) == 1));
+        for (int i = 0; i < grid.size[0]; ++i) {
+          const int value = value_at(i, j, k);
+          const bool inside = value == segment || (how.overlap && value == 1);
+          pixels.push_back(!how.map ? int(inside) : value == 0 ? map_padding : value);
+        }
       }
     }
   }
-  std::string bytes(how.fractional ? pixels.size() : (pixels.size() + 7) / 8, '\0');
+  const std::size_t per_byte = how.fractional || how.map ? 1 : 8, width = how.map ? 2 : 1;
+  std::string bytes((pixels.size() + per_byte - 1) / per_byte * width, '\0');
   for (std::size_t n = 0; n < pixels.size(); ++n) {
-    if (how.fractional) {
-      bytes[n] = char(pixels[n] ? 140 : 90);  // of 200
-    } else if (pixels[n]) {
+    if (how.map) {
+      bytes[2 * n] = char(pixels[n] & 0xff);
+      bytes[2 * n + 1] = char(pixels[n] >> 8);
+    } else if (how.fractional) {
+      bytes[n] = char(pixels[n] != 0 ? 140 : 90);  // of 200
+    } else if (pixels[n] != 0) {
       bytes[n / 8] = char(std::uint8_t(bytes[n / 8]) | 1 << n % 8);
     }
   }
   if (bytes.size() % 2 != 0) bytes += '\0';
-  DatasetBuilder axes, measures, shared, set;
+  DatasetBuilder axes, measures, shared;
   axes.text(0x00200037, "DS", triple(grid.direction.col(0)) + "\\" + triple(grid.direction.col(1)));
   measures.text(0x00280030, "DS", "1.1\\0.9");
   if (how.states_distance) measures.number(0x00180088, grid.spacing[2]);
   shared.sequence(0x00209116, {axes}).sequence(0x00289110, {measures});
-  const std::uint16_t bits = how.fractional ? 8 : 1;
-  set.text(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.66.4")
-      .text(0x00080018, "UI", "2.25.11")
-      .text(0x00080060, "CS", "SEG")
-      .unsigned_short(0x00280002, 1)
-      .text(0x00280004, "CS", "MONOCHROME2")
-      .text(0x00280008, "IS", std::to_string(frames.size()))
-      .unsigned_short(0x00280010, std::uint16_t(grid.size[1]))
-      .unsigned_short(0x00280011, std::uint16_t(grid.size[0]))
-      .unsigned_short(0x00280100, bits)
-      .unsigned_short(0x00280101, bits)
-      .unsigned_short(0x00280102, std::uint16_t(bits - 1))
-      .unsigned_short(0x00280103, 0)
-      .text(0x00620001, "CS", how.fractional ? "FRACTIONAL" : "BINARY")
-      .sequence(0x00620002, segments)
-      .unsigned_short(0x0062000e, 200)
-      .sequence(0x52009229, {shared})
-      .sequence(0x52009230, frames)
-      .words(0x7fe00010, bytes);
+  DatasetBuilder set = header_of(how, frames.size(), segments);
+  set.sequence(0x52009229, {shared}).sequence(0x52009230, frames).words(0x7fe00010, bytes);
   write_text(file, set.file());
 }
 
@@ -118,10 +144,12 @@ std::string refusal(const std::filesystem::path& file) {
 TEST(DicomSegmentation, SegmentsAreWhereTheyWere) {
   const ScratchFolder folder;
   const auto file = folder / "seg";  // objects of an archive have no endings
-  for (const bool fractional : {false, true}) {
+  for (const std::string type : {"BINARY", "FRACTIONAL", "LABELMAP"}) {
     for (const bool states_distance : {false, true}) {
+      SCOPED_TRACE(type);
       Written how;
-      how.fractional = fractional;
+      how.fractional = type == "FRACTIONAL";
+      how.map = type == "LABELMAP";
       how.states_distance = states_distance;
       write(file, how);
       ASSERT_TRUE(is_segmentation_file(file));
@@ -141,6 +169,7 @@ TEST(DicomSegmentation, SegmentsAreWhereTheyWere) {
       EXPECT_EQ(labels.at(2, 0, 0), Tissue::fibroglandular);
       EXPECT_EQ(labels.at(3, 0, 0), Tissue::fat);
       EXPECT_FALSE(read.content_sha256.empty());
+      EXPECT_EQ(read.remark.find("by more than half") != std::string::npos, how.fractional);
     }
   }
 }
@@ -167,6 +196,8 @@ TEST(DicomSegmentation, WhatIsNoVolumeOfSegmentsIsRefused) {
   how = {};
   how.labels = {"Chest wall", "Fat"};
   says(how, "of segment '3', which it does not describe");
+  how.map = true;
+  says(how, "shows segment 3, which it does not describe");
   write_text(folder / "no.dcm", "nothing");
   EXPECT_FALSE(is_segmentation_file(folder / "no.dcm"));
 }

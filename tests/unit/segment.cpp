@@ -243,6 +243,53 @@ TEST(Segment, ACorrectedLabelMapReplacesTheWall) {
   EXPECT_THROW(run(scan, options), Error);
 }
 
+// Somebody's muscle is measured muscle: behind it there is none.
+TEST(Segment, TheBackOfAGivenMuscleIsKept) {
+  const SyntheticScan truth;
+  const double thick = 10;
+  const auto labels_of = [&](double thickness, double& percent) {
+    SegmentOptions options;
+    options.wall_labels = Volume<float>(truth.grid);
+    for (int k = 0; k < truth.grid.size[2]; ++k) {
+      for (int j = 0; j < truth.grid.size[1]; ++j) {
+        for (int i = 0; i < truth.grid.size[0]; ++i) {
+          const Vec3 p = truth.grid.to_patient(Vec3(i, j, k));
+          const double depth = p[1] - truth.wall(p[0], p[2]);
+          if (depth >= 0 && depth < thickness) options.wall_labels->at(i, j, k) = 4;
+        }
+      }
+    }
+    const Segmentation result = run(truth.image(), options);
+    percent = result.muscle_back_percent;
+    return result.labels;
+  };
+  double percent = 0, without_back = 0;
+  const LabelVolume thin = labels_of(thick, percent), whole = labels_of(1000, without_back);
+  EXPECT_GT(percent, 90);
+  EXPECT_EQ(without_back, 0);
+  const Grid& grid = thin.grid;
+  double muscle = 0, columns = 0;
+  for (std::size_t n = 0; n < thin.tissue.size(); ++n) {
+    if (thin.tissue[n] == whole.tissue[n]) continue;
+    ASSERT_EQ(thin.tissue[n], std::uint8_t(Tissue::other));
+    ASSERT_EQ(whole.tissue[n], std::uint8_t(Tissue::muscle));
+  }
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int i = 0; i < grid.size[0]; ++i) {
+      double run_mm = 0;
+      bool ends = false;
+      for (int j = 0; j < grid.size[1]; ++j) {
+        run_mm += thin.at(i, j, k) == Tissue::muscle ? grid.spacing[1] : 0;
+        ends = ends || (run_mm > 0 && thin.at(i, j, k) == Tissue::other);
+      }
+      muscle += ends ? run_mm : 0;
+      columns += ends;
+    }
+  }
+  ASSERT_GT(columns, 0);
+  EXPECT_NEAR(muscle / columns, thick, 1.5);
+}
+
 TEST(Segment, ScansWithoutABreastAreRefusedInOneLine) {
   const auto refusal = [](const Volume<float>& scan) -> std::string {
     try {

@@ -71,6 +71,8 @@ TEST(Segmentations, PresetsKnowTheValuesAndNamesOfOtherPrograms) {
   EXPECT_EQ(tissue("Dense_2", {"duke-fgt"}), Tissue::fibroglandular);
   EXPECT_EQ(tissue("skeletal_muscle", {"totalsegmentator-tissues"}), Tissue::muscle);
   EXPECT_EQ(tissue("pectoralis_minor", {"totalsegmentator-muscles"}), Tissue::muscle);
+  EXPECT_EQ(tissue("pectoralis_major_left", {"totalsegmentator-trunk"}), Tissue::muscle);
+  EXPECT_EQ(tissue("left", {"breastdivider"}), Tissue::fat);
   EXPECT_EQ(tissue("Skin", {"duke-fgt"}), Tissue::skin);                 // its own name
   EXPECT_EQ(tissue("Dense", {"duke-fgt", "7=tumour"}), Tissue::tumour);  // the user's word
   EXPECT_THROW(tissue("Dense", {"totalsegmentator-tissues"}), Error);    // another program's
@@ -84,6 +86,23 @@ TEST(Segmentations, PresetsKnowTheValuesAndNamesOfOtherPrograms) {
   EXPECT_EQ(translate_labels(volume, codes, "x").tissue, expected);
   volume.voxels = {0, 0, 70, 70};
   EXPECT_THROW(translate_labels(volume, codes, "x"), Error);
+}
+
+// The published lists number their classes from 1 without a gap.
+TEST(Segmentations, PresetsHaveEveryValueOfTheirSource) {
+  const std::map<std::string, int> classes = {{"totalsegmentator-tissues", 4},
+                                              {"totalsegmentator-muscles", 18},
+                                              {"totalsegmentator-trunk", 22},
+                                              {"duke-fgt", 2},
+                                              {"breastdivider", 2}};
+  EXPECT_EQ(code_preset_names().size(), classes.size());
+  for (const auto& [name, count] : classes) {
+    const CodePreset preset = load_code_preset(name);
+    ASSERT_EQ(preset.values.size(), std::size_t(count)) << name;
+    EXPECT_EQ(preset.values.begin()->first, 1) << name;
+    EXPECT_EQ(preset.values.rbegin()->first, count) << name;
+    EXPECT_GE(preset.names.size(), preset.values.size()) << name;
+  }
 }
 
 TEST(Segmentations, APresetMayBeATableOfTheUser) {

@@ -34,9 +34,9 @@ constexpr std::array<std::uint32_t, 17> kept_sequences{
     0x00289110, 0x00289145, 0x00209111, 0x00189226, 0x00189114, 0x00189112,
     0x00189115, 0x00189117, 0x00209071, 0x00620002, 0x0062000a};
 // Elements that are binary numbers; others, such as Rescale Slope, are text.
-constexpr std::array<std::uint32_t, 11> shorts{0x00620004, 0x0062000b, 0x0062000e, 0x00280002,
+constexpr std::array<std::uint32_t, 12> shorts{0x00620004, 0x0062000b, 0x0062000e, 0x00280002,
                                                0x00280010, 0x00280011, 0x00280100, 0x00280101,
-                                               0x00280102, 0x00280103, 0x00209156};
+                                               0x00280102, 0x00280103, 0x00280120, 0x00209156};
 constexpr std::array<std::uint32_t, 1> longs{0x00209128};
 constexpr std::array<std::uint32_t, 3> doubles{0x00189082, 0x00209153, 0x00189087};
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cstdlib>
-#include <cstring>
 
 #include "core/error.hpp"
-#include "core/guarded_child.hpp"
 #include "io/dicom/mammogram_header.hpp"
 #include "io/dicom/stored_values.hpp"
 #include "io/mammogram_dicom.hpp"
@@ -13,21 +11,13 @@ namespace breast {
 
 namespace {
 
-/// The stored values; in a child process when GDCM decodes them.
 std::vector<float> grey_values(const std::filesystem::path& file) {
   DicomObject object;
   read_dicom_object(file, object);
   check_grey(file, object.header);
   if (const std::string frames = text_of(object.header, "0028|0008"); std::atoi(frames.c_str()) > 1)
     throw input_error(file.string(), ": ", frames, " frames; one is expected");
-  if (!object.pixels->encapsulated) return stored_values(file, object);
-  const std::string packed = in_guarded_child(file.string(), [&] {
-    const std::vector<float> values = stored_values(file, object);
-    return std::string(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
-  });
-  std::vector<float> values(packed.size() / sizeof(float));
-  std::memcpy(values.data(), packed.data(), values.size() * sizeof(float));
-  return values;
+  return guarded_values(file, object);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "core/guarded_child.hpp"
 #include "io/dicom/dataset.hpp"
 
 namespace breast {
@@ -141,6 +142,17 @@ std::vector<float> stored_values(const fs::path& file, const DicomObject& object
     return unpacked(pixel_bytes(file, object), layout, object.big_endian, frames, file);
   }
   return unpacked(decoded(file, object, layout), layout, false, frames, file);
+}
+
+std::vector<float> guarded_values(const fs::path& file, const DicomObject& object) {
+  if (!object.pixels->encapsulated) return stored_values(file, object);
+  const std::string packed = in_guarded_child(file.string(), [&] {
+    const std::vector<float> values = stored_values(file, object);
+    return std::string(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
+  });
+  std::vector<float> values(packed.size() / sizeof(float));
+  std::memcpy(values.data(), packed.data(), values.size() * sizeof(float));
+  return values;
 }
 
 }  // namespace breast

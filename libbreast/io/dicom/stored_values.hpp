@@ -20,4 +20,7 @@ void check_grey(const std::filesystem::path& file, const DicomHeader& header);
 std::vector<float> stored_values(const std::filesystem::path& file, const DicomObject& object,
                                  const std::vector<int>& frames = {});
 
+/// The values of all frames; decoded in a child process if the pixels are encapsulated.
+std::vector<float> guarded_values(const std::filesystem::path& file, const DicomObject& object);
+
 }  // namespace breast

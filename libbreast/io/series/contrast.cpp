@@ -57,14 +57,18 @@ Weighting weighting_by_times(double repetition_ms, double echo_ms) {
 
 /// What is made from other images, or shows a part of the signal.
 ScanContrast derived_kind(const Words& type, const Words& description) {
-  if (type.any({"projection image", "mip", "mpr", "minip"})) return ScanContrast::projection;
+  if (type.any({"projection image", "mip", "mpr", "minip", "max_ip", "min_ip", "mean_ip"}))
+    return ScanContrast::projection;
   if (type.any({"p", "phase", "phase map", "r", "real", "i", "imaginary"}) &&
       !type.any({"m", "magnitude"}))
     return ScanContrast::phase;
   if (type.any({"sub", "subtraction", "subtracted"})) return ScanContrast::subtraction;
   if (type.any({"diffusion", "adc", "tracew", "trace"})) return ScanContrast::diffusion;
+  if (type.any({"ff", "fat_fraction", "water_fraction", "r2_star", "r2_star_map", "t2_star",
+                "t2_star_map", "b0_map", "field_map", "quantity"}))
+    return ScanContrast::map;
   if (type.any({"w", "water", "dixon_water"})) return ScanContrast::water;
-  if (type.any({"f", "fat", "dixon_fat", "ff", "fat_fraction"})) return ScanContrast::fat;
+  if (type.any({"f", "fat", "dixon_fat"})) return ScanContrast::fat;
   if (type.any({"ip", "in_phase", "inphase"})) return ScanContrast::in_phase;
   if (type.any({"op", "out_phase", "opp_phase", "outphase", "out_of_phase"}))
     return ScanContrast::opposed_phase;
@@ -73,8 +77,12 @@ ScanContrast derived_kind(const Words& type, const Words& description) {
   if (description.any({"dwi", "adc", "diffusion", "resolve", "ep2d"}))
     return ScanContrast::diffusion;
   if (description.any({"water", "w"})) return ScanContrast::water;
-  if (description.any({"inphase", "ip"})) return ScanContrast::in_phase;
-  if (description.any({"outphase", "opposed", "op", "opp"})) return ScanContrast::opposed_phase;
+  const bool of_phase = description.any({"phase", "dixon"});  // "in phase", "dixon_in"
+  if (description.any({"outphase", "opposed", "op", "opp"}) ||
+      (of_phase && description.any({"out"})))
+    return ScanContrast::opposed_phase;
+  if (description.any({"inphase", "ip"}) || (of_phase && description.any({"in"})))
+    return ScanContrast::in_phase;
   if (description.any({"fat", "f"}) &&
       !description.any({"sat", "sup", "without", "no", "nofat", "non"}))
     return ScanContrast::fat;
@@ -97,9 +105,19 @@ bool is_fat_suppressed(const std::function<std::string(const char*)>& value,
 }  // namespace
 
 const char* contrast_name(ScanContrast contrast) {
-  constexpr std::array names{"T1",        "in phase",  "not stated",        "T1 fat-suppressed",
-                             "water",     "T2",        "T2 fat-suppressed", "opposed phase",
-                             "fat",       "diffusion", "subtraction",       "phase or complex part",
+  constexpr std::array names{"T1",
+                             "in phase",
+                             "not stated",
+                             "T1 fat-suppressed",
+                             "water",
+                             "T2",
+                             "T2 fat-suppressed",
+                             "opposed phase",
+                             "fat",
+                             "diffusion",
+                             "subtraction",
+                             "phase or complex part",
+                             "map of a quantity",
                              "projection"};
   return names[std::size_t(contrast)];
 }

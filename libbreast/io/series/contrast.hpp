@@ -21,6 +21,7 @@ enum class ScanContrast {
   diffusion,
   subtraction,
   phase,
+  map,
   projection,
 };
 /// "T1", "T1 fat-suppressed", "water", ...; "not stated".

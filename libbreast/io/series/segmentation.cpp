@@ -8,7 +8,6 @@
 #include <cstdlib>
 
 #include "core/error.hpp"
-#include "core/guarded_child.hpp"
 #include "core/text/lists.hpp"
 #include "io/dicom/header.hpp"
 #include "io/dicom/stored_values.hpp"
@@ -23,7 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double least_spacing_mm = 0.01, most_spacing_mm = 50;  // of slices
-constexpr const char* segmentation_class = "1.2.840.10008.5.1.4.1.1.66.4";
+constexpr const char *segmentation_class = "1.2.840.10008.5.1.4.1.1.66.4",
+                     *label_map_class = "1.2.840.10008.5.1.4.1.1.66.7";
 
 std::vector<std::string> listed(const DicomHeader& header, const char* key) {
   const std::string text = text_of(header, key);
@@ -44,23 +44,25 @@ std::vector<Segment> segments_in(const fs::path& file, const DicomHeader& header
   return segments;
 }
 
-/// A frame is one segment in one slice.
+/// A frame is one segment in one slice, or the map of all segments in it.
 struct Frame {
   int segment = 0;
   DicomImage place;
 };
 
+bool is_described(const std::vector<Segment>& segments, int number) {
+  return std::any_of(segments.begin(), segments.end(),
+                     [&](const Segment& one) { return one.value == number; });
+}
+
 std::vector<Frame> frames_of(const fs::path& file, const DicomObject& object,
-                             const std::vector<Segment>& segments) {
+                             const std::vector<Segment>& segments, bool is_map) {
   std::vector<Frame> frames;
   for (std::size_t n = 0; n < object.frames.size(); ++n) {
     std::string segment = text_of(object.frames[n], "0062|000a/0062|000b");
     if (segment.empty()) segment = text_of(object.header, "5200|9229/0062|000a/0062|000b");
     frames.push_back({std::atoi(segment.c_str()), placed_frame(file, object, int(n))});
-    const bool known = std::any_of(segments.begin(), segments.end(), [&](const Segment& one) {
-      return one.value == frames.back().segment;
-    });
-    if (!known) {
+    if (!is_map && !is_described(segments, frames.back().segment)) {
       throw input_error(file.string(), ": frame ", n + 1, " is of segment '", segment,
                         "', which it does not describe");
     }
@@ -135,42 +137,46 @@ Grid grid_of(const fs::path& file, const DicomImage& first, const std::vector<do
   return grid;
 }
 
-/// Whether each pixel of each frame is in its segment.
-class Bits {
+/// The segment of each pixel of all frames, one after the other.
+class SegmentPixels {
  public:
-  Bits(const fs::path& file, const DicomObject& object) {
+  SegmentPixels(const fs::path& file, const DicomObject& object, bool is_map) : is_map_(is_map) {
     const std::string type = text_of(object.header, "0062|0001");
     const std::string bits = text_of(object.header, "0028|0100");
     if (type == "BINARY" && bits == "1" && !object.pixels->encapsulated) {
       packed_ = pixel_bytes(file, object);
-    } else if (type == "FRACTIONAL" && bits == "8") {
+    } else if ((type == "FRACTIONAL" && bits == "8") || is_map) {
       check_grey(file, object.header);
-      const auto read = [&] {
-        std::string bytes;
-        for (const float value : stored_values(file, object)) bytes += char(std::uint8_t(value));
-        return bytes;
-      };
-      fractions_ = object.pixels->encapsulated ? in_guarded_child(file.string(), read) : read();
+      values_ = guarded_values(file, object);
       const std::string most = text_of(object.header, "0062|000e");
       half_ = (most.empty() ? 255.0 : std::strtod(most.c_str(), nullptr)) / 2;
+      none_ = std::atoi(text_of(object.header, "0028|0120").c_str());  // Pixel Padding Value
     } else {
-      throw input_error(file.string(), ": a segmentation of type ", type, " with ", bits,
-                        " bits per pixel", object.pixels->encapsulated ? ", compressed" : "",
-                        "; BINARY with 1 bit, not compressed, or FRACTIONAL with 8 is read");
+      throw input_error(
+          file.string(), ": a segmentation of type ", type, " with ", bits, " bits per pixel",
+          object.pixels->encapsulated ? ", compressed" : "",
+          "; BINARY with 1 bit, not compressed, FRACTIONAL with 8, or LABELMAP with 8 "
+          "or 16 is read");
     }
   }
-  bool at(std::size_t pixel) const {
-    if (fractions_.empty()) return (std::uint8_t(packed_[pixel / 8]) >> (pixel % 8) & 1) != 0;
-    return double(std::uint8_t(fractions_[pixel])) > half_;
+  /// The segment of a pixel of a frame that belongs to `segment`, unless it is a map; 0 for none.
+  int at(std::size_t pixel, int segment) const {
+    if (is_map_) return int(values_[pixel]) == none_ ? 0 : int(values_[pixel]);
+    const bool inside = values_.empty() ? (std::uint8_t(packed_[pixel / 8]) >> (pixel % 8) & 1) != 0
+                                        : double(values_[pixel]) > half_;
+    return inside ? segment : 0;
   }
   /// Whether there are this many pixels.
   bool holds(std::size_t pixels) const {
-    return fractions_.empty() ? packed_.size() * 8 >= pixels : fractions_.size() >= pixels;
+    return values_.empty() ? packed_.size() * 8 >= pixels : values_.size() >= pixels;
   }
 
  private:
-  std::string packed_, fractions_;
+  bool is_map_;
+  std::string packed_;
+  std::vector<float> values_;
   double half_ = 0;
+  int none_ = 0;
 };
 
 }  // namespace
@@ -180,12 +186,12 @@ bool is_dicom_segmentation(const fs::path& file) {
   if (!fs::is_regular_file(file, none)) return false;
   DicomObject object;
   try {
-    return read_dicom_object(file, object) &&
-           text_of(object.header, "0008|0016") == segmentation_class;
+    if (!read_dicom_object(file, object)) return false;
   } catch (const Error&) {
-    return text_of(object.header, "0008|0016") ==
-           segmentation_class;  // its reader says what is wrong
+    // Its reader says what is wrong.
   }
+  const std::string kind = text_of(object.header, "0008|0016");
+  return kind == segmentation_class || kind == label_map_class;
 }
 
 SegmentedVolume read_dicom_segmentation(const fs::path& file) {
@@ -194,14 +200,15 @@ SegmentedVolume read_dicom_segmentation(const fs::path& file) {
     throw input_error(file.string(), ": not a DICOM segmentation");
   SegmentedVolume read;
   read.segments = segments_in(file, object.header);
-  const std::vector<Frame> frames = frames_of(file, object, read.segments);
+  const bool is_map = text_of(object.header, "0062|0001") == "LABELMAP";
+  const std::vector<Frame> frames = frames_of(file, object, read.segments, is_map);
   const DicomImage& first = frames.front().place;
   const std::vector<double> heights = heights_of(file, frames);
   read.values.grid = grid_of(file, first, heights, spacing_of(file, object, heights));
   const Grid& grid = read.values.grid;
-  const Bits bits(file, object);
+  const SegmentPixels segments(file, object, is_map);
   const std::size_t pixels = std::size_t(first.columns) * std::size_t(first.rows);
-  if (!bits.holds(pixels * frames.size())) {
+  if (!segments.holds(pixels * frames.size())) {
     throw input_error(file.string(), ": fewer pixels than ", frames.size(), " frames of ",
                       first.columns, " x ", first.rows);
   }
@@ -211,15 +218,24 @@ SegmentedVolume read_dicom_segmentation(const fs::path& file) {
     const int k = int(std::lround((heights[n] - low) / grid.spacing[2]));
     const std::size_t slice = grid.offset(0, 0, k);
     for (std::size_t at = 0; at < pixels; ++at) {
-      if (!bits.at(n * pixels + at)) continue;
+      const int segment = segments.at(n * pixels + at, frames[n].segment);
+      if (segment == 0) continue;
       float& voxel = read.values.voxels[slice + at];
-      if (voxel != 0 && voxel != float(frames[n].segment)) {
-        throw input_error(file.string(), ": segments ", int(voxel), " and ", frames[n].segment,
+      if (voxel != 0 && voxel != float(segment)) {
+        throw input_error(file.string(), ": segments ", int(voxel), " and ", segment,
                           " overlap: which of them a voxel belongs to is unknown");
       }
-      voxel = float(frames[n].segment);
+      if (is_map && !is_described(read.segments, segment)) {
+        throw input_error(file.string(), ": frame ", n + 1, " shows segment ", segment,
+                          ", which it does not describe");
+      }
+      voxel = float(segment);
     }
   }
+  if (text_of(object.header, "0062|0001") == "FRACTIONAL")
+    read.remark =
+        file.string() +
+        ": its segments are fractions; a voxel belongs to the one that fills it by more than half";
   read.content_sha256 = content_hash(read.values);
   return read;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// DICOM Segmentation objects (PS3.3 A.51): frames of one segment in one slice each.
+// DICOM Segmentation objects (PS3.3 A.51): frames of one segment in one slice each, or label maps of slices.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@ namespace breast {
 bool is_dicom_segmentation(const std::filesystem::path& file);
 
 /// The volume that holds all frames, with the number of a segment in each of its voxels and 0 elsewhere;
-/// a voxel of a fractional segmentation belongs to a segment by more than half. Slices without a segment
+/// a voxel of a fractional segmentation belongs to a segment by more than half, which its remark says. Slices without a segment
 /// may be missing. Throws Error (input) for frames that are no volume, segments that overlap, and
 /// pixels of another kind.
 SegmentedVolume read_dicom_segmentation(const std::filesystem::path& file);

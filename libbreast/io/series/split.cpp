@@ -80,15 +80,17 @@ DicomStack part_of(const DicomStack& whole, Part slices) {
   return part;
 }
 
-/// Divided by one mark; empty if it does not tell all images at one place apart.
+/// Divided by one mark; empty if it does not tell all images at one place apart. Of the kinds some may have
+/// images at few places, so that no place has all of them.
 std::vector<DicomStack> by_one(const DicomStack& stack, Mark mark, std::size_t wanted) {
   const Parts parts = divided(stack.slices, mark);
-  if (parts.size() != wanted || !all_distinct(parts)) return {};
+  const bool enough = mark == Mark::kind ? parts.size() >= wanted : parts.size() == wanted;
+  if (!enough || !all_distinct(parts)) return {};
   std::vector<DicomStack> stacks;
   for (const auto& [value, slices] : parts) {
     stacks.push_back(part_of(stack, slices));
     (of_time(mark) ? stacks.back().time : stacks.back().kind) = int(stacks.size());
-    (of_time(mark) ? stacks.back().times : stacks.back().kinds) = int(wanted);
+    (of_time(mark) ? stacks.back().times : stacks.back().kinds) = int(parts.size());
   }
   return stacks;
 }

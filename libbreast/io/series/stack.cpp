@@ -117,8 +117,12 @@ void finish(DicomStack& stack, const std::string& where) {
   }
 }
 
+bool is_projection(const DicomImage& image) {
+  return image.contrast == ScanContrast::projection;
+}
+
 /// Images of one series, size and orientation. Those of a localiser, in several orientations, have one
-/// UID.
+/// UID. Projections of a scan, which may be among its images, are no slices of it.
 std::vector<DicomStack> by_series(std::vector<DicomImage> images) {
   constexpr double one_orientation = 0.1;  // of the unit vectors
   std::map<std::pair<int, std::string>, std::vector<DicomStack>> series;
@@ -127,7 +131,8 @@ std::vector<DicomStack> by_series(std::vector<DicomImage> images) {
                            message(image.series_uid, "/", image.rows, "x", image.columns)}];
     const auto alike = [&](const DicomStack& stack) {
       const DicomImage& first = stack.first();
-      return (first.row - image.row).norm() < one_orientation &&
+      return is_projection(first) == is_projection(image) &&
+             (first.row - image.row).norm() < one_orientation &&
              (first.column - image.column).norm() < one_orientation;
     };
     // An image whose place is unknown belongs to its series, which is then no volume.
@@ -156,7 +161,7 @@ Vec3 DicomStack::extent() const {
 }
 
 std::string DicomStack::label() const {
-  std::string text = files == int(slices.size()) ? message(files, " files")
+  std::string text = files == int(slices.size()) ? message(files, files == 1 ? " file" : " files")
                                                  : message(slices.size(), " frames in ", files,
                                                            files == 1 ? " file" : " files");
   text += message(" of ", first().columns, " x ", first().rows, " pixels, series number ",

@@ -115,6 +115,7 @@ Volume<float> read_folder(const fs::path& folder, const ScanChoice& choice, Volu
   ChosenStack chosen = chosen_stack(folder, choice);
   source.description = message("DICOM series ", chosen.number, ": ", chosen.stack.label());
   source.patient_position = chosen.stack.patient_position;
+  source.patient_id = chosen.stack.first().patient_id;
   source.contrast = contrast_name(chosen.stack.first().contrast);
   source.remarks = std::move(chosen.remarks);
   return read_stack(chosen.stack);

@@ -41,6 +41,34 @@ double apply_wall_labels(ChestWall& wall, const WallDomain& domain, const Grid& 
   return replaced / columns;
 }
 
+double end_muscle(LabelVolume& labels, const Volume<float>& given) {
+  constexpr double least_mm = 2;  // of what lies behind; less is a hole
+  const NearestVoxel nearest(given.grid);
+  const Grid& grid = labels.grid;
+  double columns = 0, ended = 0;
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int i = 0; i < grid.size[0]; ++i) {
+      bool seen = false;
+      int back = 0, j = 0;  // voxels of other tissue behind the muscle
+      for (; j < grid.size[1] && back * grid.spacing[1] < least_mm; ++j) {
+        const std::ptrdiff_t at = nearest.at(grid.to_patient(Vec3(i, j, k)));
+        const bool muscle =
+            at >= 0 && std::lround(given.voxels[std::size_t(at)]) == long(Tissue::muscle);
+        seen = seen || (muscle && labels.at(i, j, k) == Tissue::muscle);
+        back = seen && at >= 0 && !muscle ? back + 1 : 0;
+      }
+      columns += seen;
+      if (back * grid.spacing[1] < least_mm) continue;
+      ended += 1;
+      for (j -= back; j < grid.size[1]; ++j) {
+        std::uint8_t& tissue = labels.tissue[grid.offset(i, j, k)];
+        if (Tissue(tissue) == Tissue::muscle) tissue = std::uint8_t(Tissue::other);
+      }
+    }
+  }
+  return columns > 0 ? ended / columns : 0;
+}
+
 namespace {
 
 double plate(const Vec2& a, const Vec2& b) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "image/label_volume.hpp"
 #include "segment/wall/chest_wall.hpp"
 #include "surface/tri_mesh.hpp"
 
@@ -14,6 +15,9 @@ namespace breast {
 /// Returns the share of the domain's columns replaced.
 double apply_wall_labels(ChestWall& wall, const WallDomain& domain, const Grid& grid,
                          const Volume<float>& labels);
+/// Behind the muscle of the label map, where it has a back (other tissue for at least 2 mm), muscle of the labels
+/// becomes `other`. Returns the share of the columns with muscle in both in which it has one.
+double end_muscle(LabelVolume& labels, const Volume<float>& given);
 /// Moves the wall to clicked points (patient mm) by a thin-plate spline of the corrections, which
 /// are zero farther than 50 mm from every point. More than 400 points are averaged in cells of 8
 /// mm. Throws Error (input) for a point beside the domain.
