@@ -88,6 +88,64 @@ HeightField turned(const HeightField& skin, const Grid& grid, double angle) {
   return out;
 }
 
+/// The skin as nearly its own mirror image as a turn of the body makes it.
+struct MirrorImage {
+  double angle = 0;         ///< radians; 0 where no turn makes it much more so
+  int column = 0;           ///< its own mirror image about that column, turned by the angle
+  int straight_column = 0;  ///< and as it is
+};
+
+MirrorImage mirror_image(const HeightField& skin, const Grid& grid) {
+  // Of people lying straight, a turn takes at most a sixth of the difference of their halves.
+  constexpr double much_less = 0.7;
+  const double deepest = grid.size[1] * grid.spacing[1];
+  MirrorImage found;
+  double straight = 0;
+  found.straight_column = found.column = mirror_column(skin, grid.spacing[0], deepest, straight);
+  double best = 0, least = straight;
+  int column = found.column;
+  const auto try_angle = [&](double degrees) {
+    double cost = 0;
+    const int at = mirror_column(turned(skin, grid, degrees * std::numbers::pi / 180),
+                                 grid.spacing[0], deepest, cost);
+    if (cost < least) least = cost, best = degrees, column = at;
+  };
+  for (double degrees = -25; degrees <= 25; degrees += 5) try_angle(degrees);
+  for (const double step : {2.5, 1.25}) {
+    const double centre = best;
+    try_angle(centre - step);
+    try_angle(centre + step);
+  }
+  if (!(least < much_less * straight)) return found;
+  found.angle = best * std::numbers::pi / 180;
+  found.column = column;
+  return found;
+}
+
+/// The column over the sternum: of a turned body not the one about which its skin is most nearly its own mirror
+/// image as it lies, which can be the axis of one breast.
+int midline_of(const HeightField& skin, const Grid& grid, const MirrorImage& image) {
+  if (image.angle == 0) return image.column;
+  constexpr double half = 15;  // mm
+  const HeightField upright = turned(skin, grid, image.angle);
+  const int reach = std::max(1, int(half / grid.spacing[0]));
+  std::vector<double> sternal;
+  for (int k = 0; k < skin.nz; ++k) {
+    double deepest = no_depth;
+    for (int i = std::max(image.column - reach, 0);
+         i <= std::min(image.column + reach, skin.nx - 1); ++i)
+      if (!std::isnan(upright.at(i, k)) && !(upright.at(i, k) <= deepest))
+        deepest = upright.at(i, k);
+    if (!std::isnan(deepest)) sternal.push_back(deepest);
+  }
+  const double middle = 0.5 * (grid.size[0] - 1) * grid.spacing[0],
+               depth = 0.5 * (grid.size[1] - 1) * grid.spacing[1];
+  const double across = image.column * grid.spacing[0] - middle,
+               along = median(std::move(sternal), depth) - depth;
+  const double x = elementary::cos(image.angle) * across - elementary::sin(image.angle) * along;
+  return std::clamp(int(std::lround((x + middle) / grid.spacing[0])), 0, skin.nx - 1);
+}
+
 /// Skin over the sternum per slice: deepest of the skin within 15 mm of the midline, median over
 /// neighbouring slices.
 std::vector<double> cleft_depth(const HeightField& skin, int midline, const Grid& grid) {
@@ -163,10 +221,10 @@ int medial_valley(const HeightField& skin, double deepest, Side side) {
 TorsoFront find_torso(const Mask& body, Side side) {
   TorsoFront torso;
   torso.skin = first_body_voxel(body);
-  double cost = 0;
   const double spacing = body.grid.spacing[0], deepest = body.grid.size[1] * body.grid.spacing[1];
-  torso.midline = mirror_column(torso.skin, spacing, deepest, cost);
-  torso.one_breast = one_breast_in_view(torso.skin, torso.midline, spacing, deepest);
+  const MirrorImage image = mirror_image(torso.skin, body.grid);
+  torso.one_breast = one_breast_in_view(torso.skin, image.straight_column, spacing, deepest);
+  torso.midline = midline_of(torso.skin, body.grid, image);
   if (torso.one_breast) torso.midline = medial_valley(torso.skin, deepest, side);
   torso.cleft = cleft_depth(torso.skin, torso.midline, body.grid);
   if (std::isnan(torso.cleft[0]))
@@ -177,29 +235,9 @@ TorsoFront find_torso(const Mask& body, Side side) {
 
 double body_roll(const Mask& body) {
   const HeightField skin = first_body_voxel(body);
-  const double deepest = body.grid.size[1] * body.grid.spacing[1];
-  const auto asymmetry = [&](double degrees) {
-    double cost = 0;
-    const double angle = degrees * std::numbers::pi / 180;
-    mirror_column(turned(skin, body.grid, angle), body.grid.spacing[0], deepest, cost);
-    return cost;
-  };
-  const double straight = asymmetry(0);
-  double mirror_cost = 0;
-  const int mirror = mirror_column(skin, body.grid.spacing[0], deepest, mirror_cost);
-  if (one_breast_in_view(skin, mirror, body.grid.spacing[0], deepest)) return 0;
-  double best = 0, least = straight;
-  const auto try_angle = [&](double degrees) {
-    const double cost = asymmetry(degrees);
-    if (cost < least) least = cost, best = degrees;
-  };
-  for (double degrees = -25; degrees <= 25; degrees += 5) try_angle(degrees);
-  for (const double step : {2.5, 1.25}) {
-    const double centre = best;
-    try_angle(centre - step);
-    try_angle(centre + step);
-  }
-  return least < 0.6 * straight ? best * std::numbers::pi / 180 : 0;
+  const double spacing = body.grid.spacing[0], deepest = body.grid.size[1] * body.grid.spacing[1];
+  const MirrorImage image = mirror_image(skin, body.grid);
+  return one_breast_in_view(skin, image.straight_column, spacing, deepest) ? 0 : image.angle;
 }
 
 }  // namespace breast
