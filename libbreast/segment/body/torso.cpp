@@ -26,9 +26,16 @@ HeightField first_body_voxel(const Mask& body) {
   return skin;
 }
 
-/// Column about which the skin is most nearly its own mirror image, within 60 mm of the body's
-/// middle; `cost` (mm) is how far the two halves differ there on average.
-int mirror_column(const HeightField& skin, double spacing, double deepest, double& cost) {
+/// A column about which the skin is nearly its own mirror image.
+struct Mirror {
+  int column;
+  double cost;  ///< mm by which the two halves differ on average
+  bool at_end;  ///< of the columns that were tried: beyond, they may differ less
+};
+
+/// The column about which the skin is most nearly its own mirror image, within 60 mm of the body's
+/// middle.
+Mirror mirror_column(const HeightField& skin, double spacing, double deepest) {
   double sum = 0, count = 0;
   for (int k = 0; k < skin.nz; ++k) {
     for (int i = 0; i < skin.nx; ++i) {
@@ -40,7 +47,7 @@ int mirror_column(const HeightField& skin, double spacing, double deepest, doubl
   const double middle = sum / std::max(count, 1.0);
   const int reach = int(130 / spacing), range = int(60 / spacing);
   int best = int(middle);
-  cost = std::numeric_limits<double>::infinity();
+  double cost = std::numeric_limits<double>::infinity();
   for (int candidate = int(middle) - range; candidate <= int(middle) + range; ++candidate) {
     double total = 0, pairs = 0;
     for (int k = 0; k < skin.nz; ++k) {
@@ -59,7 +66,7 @@ int mirror_column(const HeightField& skin, double spacing, double deepest, doubl
       best = candidate;
     }
   }
-  return std::clamp(best, 0, skin.nx - 1);
+  return {std::clamp(best, 0, skin.nx - 1), cost, std::abs(best - int(middle)) == range};
 }
 
 /// The skin as seen on a grid turned by `angle` about the middle of each slice (as rolled_grid()).
@@ -100,15 +107,14 @@ MirrorImage mirror_image(const HeightField& skin, const Grid& grid) {
   constexpr double much_less = 0.7;
   const double deepest = grid.size[1] * grid.spacing[1];
   MirrorImage found;
-  double straight = 0;
-  found.straight_column = found.column = mirror_column(skin, grid.spacing[0], deepest, straight);
-  double best = 0, least = straight;
-  int column = found.column;
+  const Mirror straight = mirror_column(skin, grid.spacing[0], deepest);
+  found.straight_column = found.column = straight.column;
+  Mirror least = straight;
+  double best = 0;
   const auto try_angle = [&](double degrees) {
-    double cost = 0;
-    const int at = mirror_column(turned(skin, grid, degrees * std::numbers::pi / 180),
-                                 grid.spacing[0], deepest, cost);
-    if (cost < least) least = cost, best = degrees, column = at;
+    const HeightField upright = turned(skin, grid, degrees * std::numbers::pi / 180);
+    const Mirror mirror = mirror_column(upright, grid.spacing[0], deepest);
+    if (mirror.cost < least.cost) least = mirror, best = degrees;
   };
   for (double degrees = -25; degrees <= 25; degrees += 5) try_angle(degrees);
   for (const double step : {2.5, 1.25}) {
@@ -116,9 +122,9 @@ MirrorImage mirror_image(const HeightField& skin, const Grid& grid) {
     try_angle(centre - step);
     try_angle(centre + step);
   }
-  if (!(least < much_less * straight)) return found;
+  if (!straight.at_end && !(least.cost < much_less * straight.cost)) return found;
   found.angle = best * std::numbers::pi / 180;
-  found.column = column;
+  found.column = least.column;
   return found;
 }
 
