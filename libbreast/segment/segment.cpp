@@ -390,6 +390,8 @@ std::string read_suppressed(Work& work, Images& images, Segmentation& result,
   complete_bias(work, result, options);
   show_gland(work, scan, images, fat);
   result.unsuppressed_ml = fat.failed_ml;
+  if (!corrected_by_hand(options)) doubt_wall_by_failed(work, fat);
+  if (fat.failed_ml > 0) result.doubts.push_back(doubt_of_failed(fat));
   const std::string refusal = refusal_of_suppressed(fat, result.contrast);
   if (!refusal.empty() && !corrected_by_hand(options)) return refusal;
   if (!refusal.empty()) result.doubts.push_back("the chest wall is the given one: " + refusal);
