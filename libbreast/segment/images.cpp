@@ -14,7 +14,7 @@ namespace breast {
 
 namespace {
 
-constexpr double least_roll = 0.1;  // radians: less is the asymmetry of people
+constexpr double least_roll = 0.06;  // radians: of people lying straight it is at most 0.02
 
 /// Which voxels of a grid lie in the field of view and have data.
 Mask seen_from(const Grid& scanned, const Mask& seen, const Grid& grid) {
@@ -74,7 +74,7 @@ double stand_upright(Images& images, const Volume<float>& scanned, const Mask& b
   double roll = 0;
   for (int pass = 0; pass < 3; ++pass) {
     const double more = roll_after(roll);
-    if (!(std::abs(more) > (pass == 0 ? least_roll : least_roll / 3))) break;
+    if (!(std::abs(more) > (pass == 0 ? least_roll : least_roll / 2))) break;
     roll += more;
   }
   if (roll == 0) return 0;

@@ -249,7 +249,7 @@ Work on_scan_grid(const Work& coarse, const Images& images, Side side) {
   fine.wall.muscle_ratio = coarse.wall.muscle_ratio;
   doubt_unseen(fine);
   clear_of_air(fine);
-  fine.domain = wall_domain(fine.body.mask, fine.torso, side == Side::left);
+  fine.domain = wall_domain(fine.body.mask, fine.torso, side == Side::left, fine.seen);
   return fine;
 }
 

@@ -12,6 +12,7 @@
 #include "core/table.hpp"
 #include "core/units.hpp"
 #include "segment/bias_and_wall.hpp"
+#include "segment/body/field_of_view.hpp"
 #include "segment/body/side.hpp"
 #include "segment/contrast/dixon.hpp"
 #include "segment/contrast/evidence.hpp"
@@ -45,6 +46,7 @@ constexpr double darkest_gland_in_bias = 0.5, least_gland_in_bias = 0.1;
 void start_work(Work& work, const Images& images, const SegmentOptions& options) {
   work.scan = working_scan(images);
   work.seen = seen_on(images, work.scan.grid);
+  end_at_front(work.scan, work.seen);
   work.body = find_body(work.scan, options.side, options.posture);
 }
 
@@ -52,7 +54,7 @@ void start_work(Work& work, const Images& images, const SegmentOptions& options)
 void frame_body(Work& work, const SegmentOptions& options) {
   work.torso = find_torso(work.body.mask, options.side);
   work.skin_distance = signed_distance(work.body.mask);
-  work.domain = wall_domain(work.body.mask, work.torso, options.side == Side::left);
+  work.domain = wall_domain(work.body.mask, work.torso, options.side == Side::left, work.seen);
   refuse_other_side(work.torso, work.scan.grid, options.side);
 }
 
@@ -388,6 +390,8 @@ std::string read_suppressed(Work& work, Images& images, Segmentation& result,
   complete_bias(work, result, options);
   show_gland(work, scan, images, fat);
   result.unsuppressed_ml = fat.failed_ml;
+  if (!corrected_by_hand(options)) doubt_wall_by_failed(work, fat);
+  if (fat.failed_ml > 0) result.doubts.push_back(doubt_of_failed(fat));
   const std::string refusal = refusal_of_suppressed(fat, result.contrast);
   if (!refusal.empty() && !corrected_by_hand(options)) return refusal;
   if (!refusal.empty()) result.doubts.push_back("the chest wall is the given one: " + refusal);

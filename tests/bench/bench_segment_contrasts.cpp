@@ -178,13 +178,13 @@ double breast_ml(const LabelVolume& labels) {
 
 void print_row(const Segmentation& result, const Anatomy& anatomy, const Vec3& nipple_in_t1) {
   const auto walls = wall_scores(result, anatomy.truth);
-  std::printf("%s\t%.2f\t%.2f\t%.1f\t%.0f\t%.3f\t%.0f\t%.2f\t%.2f\t%.3f\t",
+  std::printf("%s\t%.2f\t%.2f\t%.1f\t%.0f\t%.3f\t%.0f\t%.2f\t%.0f\t%.0f\t%.2f\t%.3f\t",
               std::string(contrast_name(result.kind)).c_str(), walls[0].mean(),
               percentile(walls[0].error, 0.95, 0),
               (result.labels.landmarks.at("nipple") - nipple_in_t1).norm(), gland_ml(result.labels),
               gland_dice(result.labels, anatomy.truth, result.midline_mm), breast_ml(result.labels),
-              result.exchanged_percent, saturation_evidence(result.contrast),
-              result.contrast.silent_share);
+              result.exchanged_percent, result.unsuppressed_ml, walls[0].coverage(),
+              saturation_evidence(result.contrast), result.contrast.silent_share);
   for (const std::string& doubt : result.doubts) std::printf("%s; ", doubt.c_str());
   std::printf("\n");
   std::fflush(stdout);
@@ -212,7 +212,7 @@ void run(const std::string& file, const std::vector<Side>& sides,
         if (one.name == "T1") nipple = result.labels.landmarks.at("nipple");
         print_row(result, anatomy, nipple);
       } catch (const Error& error) {
-        std::printf("refused\t\t\t\t\t\t\t\t\t\t%s\n", error.what());
+        std::printf("refused\t\t\t\t\t\t\t\t\t\t\t\t%s\n", error.what());
         std::fflush(stdout);
       }
     }
@@ -241,7 +241,7 @@ int main(int argc, char** argv) {
           "usage: bench_segment_contrasts TRUTH... [--side left|right] [--only CASE]");
     std::printf(
         "truth\tside\tscan\ttaken_for\twall_mean\twall_p95\tnipple_mm\tgland_ml\tgland_dice\t"
-        "breast_ml\texchanged\tevidence\tsilent\tmessages\n");
+        "breast_ml\texchanged\tunsuppressed_ml\tin_band\tevidence\tsilent\tmessages\n");
     for (const std::string& file : files) breast::run(file, sides, only);
     return 0;
   } catch (const std::exception& error) {

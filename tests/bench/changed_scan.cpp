@@ -4,6 +4,8 @@
 //     changed_scan                          the names of all changes, one a line
 //     changed_scan MR OUT.nrrd CHANGE       the scan after that change
 //     changed_scan MR OUT.nrrd voxels=N     the scan in N million voxels of the same shape
+//     changed_scan MR OUT.nrrd rolled=D     the body turned by D degrees about its long axis,
+//     changed_scan MR OUT.nrrd pitched=D    or about the axis from its right to its left
 //     changed_scan LABELS OUT mirrored      a label map or labels.vtkhdf, whose voxels stay as they are
 #include <algorithm>
 #include <cmath>
@@ -23,7 +25,8 @@
 namespace breast {
 namespace {
 
-const std::string mirror = "mirrored", unchanged = "unchanged", voxels = "voxels=";
+const std::string mirror = "mirrored", unchanged = "unchanged",
+                  voxels = "voxels=", rolled = "rolled=", pitched = "pitched=";
 
 std::vector<testing::Perturbation> changes() {
   std::vector<testing::Perturbation> all{{unchanged, [](const Volume<float>& s) { return s; }}};
@@ -47,6 +50,10 @@ Volume<float> in_voxels(const Volume<float>& scan, double millions) {
 
 Volume<float> changed(const Volume<float>& scan, const std::string& name) {
   if (name.starts_with(voxels)) return in_voxels(scan, std::stod(name.substr(voxels.size())));
+  if (name.starts_with(rolled))
+    return testing::oblique(scan, std::stod(name.substr(rolled.size())));
+  if (name.starts_with(pitched))
+    return testing::oblique(scan, std::stod(name.substr(pitched.size())), 0);
   for (const testing::Perturbation& change : changes())
     if (change.name == name) return change.apply(scan);
   throw input_error("no change is called '", name, "'; call without arguments for their names");

@@ -5,6 +5,8 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "segment/grid/noise.hpp"
+
 namespace breast {
 
 namespace {
@@ -92,6 +94,20 @@ void continue_beyond_data(Volume<float>& scan, const Mask& seen) {
     for (int j = 0; j < size[1]; ++j)
       for (int i = 0; i < size[0]; ++i)
         if (!data.at<uchar>(j, i)) scan.at(i, j, k) = value[nearest.at<int>(j, i)];
+  }
+}
+
+void end_at_front(Volume<float>& scan, const Mask& seen) {
+  if (seen.voxels.empty()) return;
+  const auto& size = scan.grid.size;
+  const float air = float(corner_air_level(scan));
+  for (int k = 0; k < size[2]; ++k) {
+    for (int i = 0; i < size[0]; ++i) {
+      int first = 0;
+      while (first < size[1] && !seen.at(i, first, k)) ++first;
+      if (first == size[1]) continue;  // beside the view
+      for (int j = 0; j < first; ++j) scan.at(i, j, k) = std::min(scan.at(i, j, k), air);
+    }
   }
 }
 

@@ -13,5 +13,8 @@ Mask voxels_with_data(const Volume<float>& scan);
 /// Without data a voxel gets the value of the nearest voxel of its slice that has data: the border
 /// of what was scanned is no edge of the body.
 void continue_beyond_data(Volume<float>& scan, const Mask& seen);
+/// Makes what lies before the first voxel with data of a column at most as bright as air: where a corner of
+/// the view cuts the skin, the continued scan would be a body that reaches to the front. Nothing if all is seen.
+void end_at_front(Volume<float>& scan, const Mask& seen);
 
 }  // namespace breast

@@ -26,9 +26,16 @@ HeightField first_body_voxel(const Mask& body) {
   return skin;
 }
 
-/// Column about which the skin is most nearly its own mirror image, within 60 mm of the body's
-/// middle; `cost` (mm) is how far the two halves differ there on average.
-int mirror_column(const HeightField& skin, double spacing, double deepest, double& cost) {
+/// A column about which the skin is nearly its own mirror image.
+struct Mirror {
+  int column;
+  double cost;  ///< mm by which the two halves differ on average
+  bool at_end;  ///< of the columns that were tried: beyond, they may differ less
+};
+
+/// The column about which the skin is most nearly its own mirror image, within 60 mm of the body's
+/// middle.
+Mirror mirror_column(const HeightField& skin, double spacing, double deepest) {
   double sum = 0, count = 0;
   for (int k = 0; k < skin.nz; ++k) {
     for (int i = 0; i < skin.nx; ++i) {
@@ -40,7 +47,7 @@ int mirror_column(const HeightField& skin, double spacing, double deepest, doubl
   const double middle = sum / std::max(count, 1.0);
   const int reach = int(130 / spacing), range = int(60 / spacing);
   int best = int(middle);
-  cost = std::numeric_limits<double>::infinity();
+  double cost = std::numeric_limits<double>::infinity();
   for (int candidate = int(middle) - range; candidate <= int(middle) + range; ++candidate) {
     double total = 0, pairs = 0;
     for (int k = 0; k < skin.nz; ++k) {
@@ -59,7 +66,7 @@ int mirror_column(const HeightField& skin, double spacing, double deepest, doubl
       best = candidate;
     }
   }
-  return std::clamp(best, 0, skin.nx - 1);
+  return {std::clamp(best, 0, skin.nx - 1), cost, std::abs(best - int(middle)) == range};
 }
 
 /// The skin as seen on a grid turned by `angle` about the middle of each slice (as rolled_grid()).
@@ -86,6 +93,63 @@ HeightField turned(const HeightField& skin, const Grid& grid, double angle) {
     }
   }
   return out;
+}
+
+/// The skin as nearly its own mirror image as a turn of the body makes it.
+struct MirrorImage {
+  double angle = 0;         ///< radians; 0 where no turn makes it much more so
+  int column = 0;           ///< its own mirror image about that column, turned by the angle
+  int straight_column = 0;  ///< and as it is
+};
+
+MirrorImage mirror_image(const HeightField& skin, const Grid& grid) {
+  // Of people lying straight, a turn takes at most a sixth of the difference of their halves.
+  constexpr double much_less = 0.7;
+  const double deepest = grid.size[1] * grid.spacing[1];
+  MirrorImage found;
+  const Mirror straight = mirror_column(skin, grid.spacing[0], deepest);
+  found.straight_column = found.column = straight.column;
+  Mirror least = straight;
+  double best = 0;
+  const auto try_angle = [&](double degrees) {
+    const HeightField upright = turned(skin, grid, degrees * std::numbers::pi / 180);
+    const Mirror mirror = mirror_column(upright, grid.spacing[0], deepest);
+    if (mirror.cost < least.cost) least = mirror, best = degrees;
+  };
+  for (double degrees = -25; degrees <= 25; degrees += 5) try_angle(degrees);
+  for (const double step : {2.5, 1.25}) {
+    const double centre = best;
+    try_angle(centre - step);
+    try_angle(centre + step);
+  }
+  if (!straight.at_end && !(least.cost < much_less * straight.cost)) return found;
+  found.angle = best * std::numbers::pi / 180;
+  found.column = least.column;
+  return found;
+}
+
+/// The column over the sternum: of a turned body not the one about which its skin is most nearly its own mirror
+/// image as it lies, which can be the axis of one breast.
+int midline_of(const HeightField& skin, const Grid& grid, const MirrorImage& image) {
+  if (image.angle == 0) return image.column;
+  constexpr double half = 15;  // mm
+  const HeightField upright = turned(skin, grid, image.angle);
+  const int reach = std::max(1, int(half / grid.spacing[0]));
+  std::vector<double> sternal;
+  for (int k = 0; k < skin.nz; ++k) {
+    double deepest = no_depth;
+    for (int i = std::max(image.column - reach, 0);
+         i <= std::min(image.column + reach, skin.nx - 1); ++i)
+      if (!std::isnan(upright.at(i, k)) && !(upright.at(i, k) <= deepest))
+        deepest = upright.at(i, k);
+    if (!std::isnan(deepest)) sternal.push_back(deepest);
+  }
+  const double middle = 0.5 * (grid.size[0] - 1) * grid.spacing[0],
+               depth = 0.5 * (grid.size[1] - 1) * grid.spacing[1];
+  const double across = image.column * grid.spacing[0] - middle,
+               along = median(std::move(sternal), depth) - depth;
+  const double x = elementary::cos(image.angle) * across - elementary::sin(image.angle) * along;
+  return std::clamp(int(std::lround((x + middle) / grid.spacing[0])), 0, skin.nx - 1);
 }
 
 /// Skin over the sternum per slice: deepest of the skin within 15 mm of the midline, median over
@@ -163,10 +227,10 @@ int medial_valley(const HeightField& skin, double deepest, Side side) {
 TorsoFront find_torso(const Mask& body, Side side) {
   TorsoFront torso;
   torso.skin = first_body_voxel(body);
-  double cost = 0;
   const double spacing = body.grid.spacing[0], deepest = body.grid.size[1] * body.grid.spacing[1];
-  torso.midline = mirror_column(torso.skin, spacing, deepest, cost);
-  torso.one_breast = one_breast_in_view(torso.skin, torso.midline, spacing, deepest);
+  const MirrorImage image = mirror_image(torso.skin, body.grid);
+  torso.one_breast = one_breast_in_view(torso.skin, image.straight_column, spacing, deepest);
+  torso.midline = midline_of(torso.skin, body.grid, image);
   if (torso.one_breast) torso.midline = medial_valley(torso.skin, deepest, side);
   torso.cleft = cleft_depth(torso.skin, torso.midline, body.grid);
   if (std::isnan(torso.cleft[0]))
@@ -177,29 +241,9 @@ TorsoFront find_torso(const Mask& body, Side side) {
 
 double body_roll(const Mask& body) {
   const HeightField skin = first_body_voxel(body);
-  const double deepest = body.grid.size[1] * body.grid.spacing[1];
-  const auto asymmetry = [&](double degrees) {
-    double cost = 0;
-    const double angle = degrees * std::numbers::pi / 180;
-    mirror_column(turned(skin, body.grid, angle), body.grid.spacing[0], deepest, cost);
-    return cost;
-  };
-  const double straight = asymmetry(0);
-  double mirror_cost = 0;
-  const int mirror = mirror_column(skin, body.grid.spacing[0], deepest, mirror_cost);
-  if (one_breast_in_view(skin, mirror, body.grid.spacing[0], deepest)) return 0;
-  double best = 0, least = straight;
-  const auto try_angle = [&](double degrees) {
-    const double cost = asymmetry(degrees);
-    if (cost < least) least = cost, best = degrees;
-  };
-  for (double degrees = -25; degrees <= 25; degrees += 5) try_angle(degrees);
-  for (const double step : {2.5, 1.25}) {
-    const double centre = best;
-    try_angle(centre - step);
-    try_angle(centre + step);
-  }
-  return least < 0.6 * straight ? best * std::numbers::pi / 180 : 0;
+  const double spacing = body.grid.spacing[0], deepest = body.grid.size[1] * body.grid.spacing[1];
+  const MirrorImage image = mirror_image(skin, body.grid);
+  return one_breast_in_view(skin, image.straight_column, spacing, deepest) ? 0 : image.angle;
 }
 
 }  // namespace breast

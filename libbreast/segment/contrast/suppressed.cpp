@@ -361,15 +361,52 @@ std::string refusal_of_muscle(const MuscleOverFat& muscle) {
 std::string refusal_of(const SuppressedFat& fat) {
   const std::string muscle = refusal_of_muscle(fat.muscle);
   if (!muscle.empty()) return muscle;
-  if (fat.failed_ml > 0) {
-    return message("fat is not suppressed in ", std::lround(fat.failed_ml),
-                   " ml (elsewhere muscle is ", format_fixed(fat.muscle.median, 2),
-                   " times as bright as fat)");
-  }
   if (!(fat.gland > beyond_water * fat.water)) return "";
   return message("3 % of the breast are more than ", format_fixed(fat.gland / fat.water, 1),
                  " times as bright as muscle (at most ", beyond_water,
                  " if they are gland): fat is not suppressed there");
+}
+
+void doubt_wall_by_failed(Work& work, const SuppressedFat& fat) {
+  constexpr double sigma = 6;  // mm: of the walls of known anatomies beside failed suppression
+  constexpr double most_confidence = 0.4;
+  if (!(fat.failed_ml > 0)) return;
+  const Volume<float> distance = signed_distance(fat.failed);
+  const Grid& grid = distance.grid;
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int i = work.domain.first; i <= work.domain.last; ++i) {
+      const double depth = work.wall.depth.at(i, k);
+      if (std::isnan(depth)) continue;
+      const int j = std::clamp(int(std::lround(depth / grid.spacing[1])), 0, grid.size[1] - 1);
+      if (distance.at(i, j, k) > by_failed) continue;
+      double& sure = work.wall.confidence.at(i, k);
+      sure = std::min(sure, most_confidence);
+      work.wall.sigma.at(i, k) = std::hypot(work.wall.sigma.at(i, k), sigma);
+    }
+  }
+}
+
+std::string doubt_of_failed(const SuppressedFat& fat) {
+  if (!(fat.failed_ml > 0)) return "";
+  const Grid& grid = fat.failed.grid;
+  Vec3 low = Vec3::Constant(1e9), high = -low;
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int j = 0; j < grid.size[1]; ++j) {
+      for (int i = 0; i < grid.size[0]; ++i) {
+        if (!fat.failed.at(i, j, k)) continue;
+        const Vec3 at = grid.to_patient(Vec3(i, j, k));
+        low = low.cwiseMin(at);
+        high = high.cwiseMax(at);
+      }
+    }
+  }
+  const auto from_to = [&](int d) {
+    return message(std::lround(low[d]), " to ", std::lround(high[d]));
+  };
+  return message("fat is not suppressed in ", std::lround(fat.failed_ml), " ml (x ", from_to(0),
+                 ", y ", from_to(1), ", z ", from_to(2),
+                 " mm): the chest wall beside it is uncertain, and fat may be taken for gland or "
+                 "gland for fat there; check both (--overlay)");
 }
 
 }  // namespace breast

@@ -46,8 +46,13 @@ void show_gland(Work& work, const Volume<float>& scan, Images& images, Suppresse
 /// States why the wall cannot be taken from a scan with suppressed fat; empty if it can. Where
 /// muscle is less than 1.2 times as bright as fat, or less bright than fat in some place, the
 /// errors of the wall grow from below one millimetre to centimetres while its confidence stays.
-/// More than 4.5 times, nothing but water is left, which suppression does not reach. Where fat is not
-/// suppressed, it is neither told from gland nor does the level beside it hold.
+/// More than 4.5 times, nothing but water is left, which suppression does not reach.
 std::string refusal_of(const SuppressedFat& fat);
+
+/// Where fat is not suppressed, it is hardly told from gland, and the level beside it may not hold: within 10 mm of
+/// it the wall's confidence falls below one half, and its standard deviation grows by 6 mm.
+void doubt_wall_by_failed(Work& work, const SuppressedFat& fat);
+/// Says where in the body (patient mm) fat is not suppressed; empty if it is everywhere.
+std::string doubt_of_failed(const SuppressedFat& fat);
 
 }  // namespace breast

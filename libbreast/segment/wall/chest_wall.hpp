@@ -22,7 +22,8 @@ struct WallDomain {
   int from_medial(int n) const { return left ? first + n : last - n; }
   int to_medial(int i) const { return left ? i - first : last - i; }
 };
-WallDomain wall_domain(const Mask& body, const TorsoFront& torso, bool left);
+/// `seen` marks the voxels that have data (empty: all): no wall is sought behind the last of them.
+WallDomain wall_domain(const Mask& body, const TorsoFront& torso, bool left, const Mask& seen);
 
 struct ChestWall {
   /// Depth of the wall, mm, on columns of the domain (all i; NaN outside [first,last]).
