@@ -5,4 +5,7 @@ package: $(ROOT)build/.packages-package
 	cmake --build build/package -j $$(nproc)
 	cd build/package && cpack -G DEB > cpack.log || { cat cpack.log >&2; exit 1; }
 	@ls build/package/libbreast_*.deb
-.PHONY: package
+# build/api/cpp and build/api/python, for which no program is built; `check` makes them too, as a test.
+api: | $(ROOT)build/.packages-check
+	tests/tools/api.sh $(ROOT)build/api
+.PHONY: package api

@@ -1,18 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Targets of the source tree alone, which an installation has not: tests, extreme cases, what takes hours before a release, the
 # Debian package. Makefile.pipeline includes it.
-.PHONY: check api page-check fuzz release-check faults fields python-pages full-disk whole-tools slurm clean-root stability stability-mechanics stability-contact
+.PHONY: check page-check fuzz release-check faults fields python-pages full-disk whole-tools slurm clean-root stability stability-mechanics stability-contact
 # What the tests need besides: their packages, then the tests themselves, which are left out without them.
-check api fuzz faults full-disk whole-tools stability-mechanics stability-contact: | $(ROOT)build/.packages-check
+check fuzz faults full-disk whole-tools stability-mechanics stability-contact: | $(ROOT)build/.packages-check
 check:
 	$(call build,all)
 	OPENBLAS_THREAD_TIMEOUT=4 ctest --test-dir $(BUILD) --output-on-failure --no-tests=error -j $$(nproc)
 	printf '%s\n' tests/tools/reproduce.sh tests/tools/pipeline.sh 'tests/fuzz/run.sh inputs=2000' \
 	  'tests/tools/docs-current.sh $(BIN)' | xargs -d '\n' -P $$(nproc) -I{} sh -c 'echo "{}:"; {} || { echo "FAILED: {}"; exit 1; }'
-
-# build/api/cpp and build/api/python; `check` makes them too, as a test.
-api:
-	tests/tools/api.sh $(ROOT)build/api
 
 page-check: $(RUN)/page.html $(CC2MLO)
 	tests/page/check.sh $(BIN) $(RUN) $(RUN)
