@@ -361,6 +361,12 @@ std::string refusal_of_muscle(const MuscleOverFat& muscle) {
 std::string refusal_of(const SuppressedFat& fat) {
   const std::string muscle = refusal_of_muscle(fat.muscle);
   if (!muscle.empty()) return muscle;
+  constexpr double least_beside_failed = 1.7;
+  if (fat.failed_ml > 0 && fat.muscle.median < least_beside_failed)
+    return message("fat is not suppressed in ", std::lround(fat.failed_ml),
+                   " ml, and elsewhere muscle is ", format_fixed(fat.muscle.median, 2),
+                   " times as bright as fat (at least ", least_beside_failed,
+                   " needed to see the chest wall then)");
   if (!(fat.gland > beyond_water * fat.water)) return "";
   return message("3 % of the breast are more than ", format_fixed(fat.gland / fat.water, 1),
                  " times as bright as muscle (at most ", beyond_water,
