@@ -13,6 +13,10 @@ function(breast_launcher name module)
   string(REGEX REPLACE "[.][^.]*$" "" folder ${module})
   string(REPLACE "." "/" folder ${folder})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${python}/${folder}/*)
+  if(folder MATCHES "^breast/(study|figures)$")  # and the kinds and figures that only the source tree has
+    file(GLOB_RECURSE validation CONFIGURE_DEPENDS ${python}/breast_validation/*)
+    list(APPEND sources ${validation})
+  endif()
   list(FILTER sources EXCLUDE REGEX "/__pycache__/")
   add_custom_command(OUTPUT ${output} DEPENDS ${script} ${sources} COMMAND ${CMAKE_COMMAND} -E copy ${script} ${output}
     COMMAND ${CMAKE_COMMAND} -E touch ${output} VERBATIM)

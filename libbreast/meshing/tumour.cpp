@@ -139,17 +139,11 @@ std::optional<Tumour> automatic_tumour(const LabelVolume& labels, const HexMesh&
 }
 
 Tumour tumour_of(const LabelVolume& labels, const std::string& name) {
-  Region region = region_of(labels, Tissue::tumour);
+  const Region region = region_of(labels, Tissue::tumour);
   if (region.voxels == 0) {
-    // A mask has one value besides 0, whatever tissue has this value in labels.
-    std::set<std::uint8_t> values(labels.tissue.begin(), labels.tissue.end());
-    values.erase(std::uint8_t(Tissue::air));
-    if (values.size() != 1) {
-      throw input_error("--tumour ", name,
-                        ": has no tumour voxels (value 5), and is no mask either: it has ",
-                        values.size(), " values besides 0; a mask has one, that of the tumour");
-    }
-    region = region_of(labels, Tissue(*values.begin()));
+    throw input_error(
+        "--tumour ", name,
+        ": has no tumour voxels (value 5), and is no mask (one value besides 0) either");
   }
   const double volume = double(region.voxels) * labels.grid.voxel_volume();
   return {region.centroid, std::cbrt(3 * volume / (4 * std::numbers::pi)),

@@ -38,8 +38,7 @@ std::vector<StageQuality> quality_of(const Segmentation& result) {
   const double volume = breast_ml(result.labels);
   Score contrast("contrast"), wall("wall"), extent("extent"), tissue("tissue");
   contrast.of("saturation_evidence", saturation_evidence(result.contrast), 0, 0.75)
-      .of("fat_cv", result.bias_cv_after, 0.05, 0.086)
-      .of("unsuppressed_ml", result.unsuppressed_ml, 0, 10);
+      .of("fat_cv", result.bias_cv_after, 0.05, 0.086);
   wall.of("confident_percent", result.wall_confident_percent, 95, 80)
       .of("sigma_p95_mm", result.wall_sigma_p95, 3, 6)
       .of("muscle_to_fat", result.muscle_ratio, 0.2, 0.12)

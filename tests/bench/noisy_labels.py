@@ -19,9 +19,12 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "python"))
+from breast.state import TISSUES  # noqa: E402
+
 BIN = Path(os.environ.get("BIN", "build/release/bin")).resolve()
 ELEMENTS = os.environ.get("ELEMENTS", "10")
-AIR, SKIN = 0, 4
+AIR, SKIN = TISSUES.index("air"), TISSUES.index("skin")
 CHANGED = 0.15
 """Fraction of the voxels on either side of the surface that change."""
 COLUMNS = ("breast", "view", "seed", "status", "thickness_mm", "paddle_N", "contact_percent", "paddle_edge_percent", "detector_edge_percent",

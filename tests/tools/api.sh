@@ -45,8 +45,8 @@ done
 has python/breast.state.html '(N, 3) the shape in the scan'
 has python/breast.state.html '(3) the point of the scan'
 has python/breast.state.html 'kPa'
-has python/breast.study.score.html 'mm'
-has python/breast.figures.states.html 'breast.figures.states'
+has python/breast.study.score.html 'moved_mm'
+has python/breast.figures.states.html 'the breast as gravity turns'
 # A shape such as (3) is no item of a list.
 if grep -l '<ol [^>]*start=' "$out"/python/*.html; then
   echo "these pages show a shape as a numbered list"

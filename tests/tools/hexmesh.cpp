@@ -16,6 +16,8 @@
 #include "io/geometry_file.hpp"
 #include "io/label_file.hpp"
 #include "io/mesh_file.hpp"
+#include "io/segmentation_file.hpp"
+#include "io/volume_file.hpp"
 #include "mesh/locate.hpp"
 #include "mesh/part.hpp"
 #include "mesh/quality.hpp"
@@ -239,15 +241,21 @@ TEST_F(HexmeshTool, TumourOfLabels) {
   EXPECT_LT((read_mesh(folder_ / "mesh.vtkhdf").landmark("tumour")->imaged - Vec3(0, 45, 0)).norm(),
             0.1);
 
-  LabelVolume mask = marked;  // as a program writes it that knows nothing of tissues: 0 and 1
-  for (std::uint8_t& value : mask.tissue) value = value == std::uint8_t(Tissue::tumour) ? 1 : 0;
-  write_labels(folder_ / "mask.vtkhdf", mask);
-  ASSERT_EQ(hexmesh({"--tumour", "mask.vtkhdf"}).exit_code, 0);
+  // As a program writes it that knows nothing of tissues.
+  Volume<float> mask;
+  mask.grid = marked.grid;
+  for (const std::uint8_t value : marked.tissue)
+    mask.voxels.push_back(value == std::uint8_t(Tissue::tumour) ? 255 : 0);
+  write_volume(folder_ / "mask.nrrd", mask);
+  ASSERT_EQ(hexmesh({"--tumour", "mask.nrrd"}).exit_code, 0);
   EXPECT_EQ(Report::parse(read_text(folder_ / "r.json"), "r.json").number("volumes_ml/tumour"),
             beside.number("volumes_ml/tumour"));
   const ToolResult neither = hexmesh({"--tumour", "labels.vtkhdf"});
   EXPECT_EQ(neither.exit_code, 2);
   EXPECT_NE(neither.err.find("no tumour voxels"), std::string::npos) << neither.err;
+  // One tissue with a name is no mask.
+  write_segmentation(folder_ / "gland.seg.nrrd", labels_with(Tissue::fibroglandular, 15));
+  EXPECT_EQ(hexmesh({"--tumour", "gland.seg.nrrd"}).exit_code, 2);
 
   write_labels(folder_ / "labels.vtkhdf", marked);
   ASSERT_EQ(hexmesh({}).exit_code, 0);

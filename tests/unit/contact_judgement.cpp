@@ -87,7 +87,11 @@ TEST(Judgement, EachFigureOutsideItsRangeIsDoubted) {
             "paddle_force_above");
   EXPECT_EQ(with([](ContactRecord& c) { c.plates[0].force_N = c.plates[1].force_N = 20; }),
             (Ids{"paddle_force_below", "detector_force_below"}));
-  // A search for 50 N may end at 49.8 N.
+  // A search for 50 N may end at 49.8 N, one for 180 N at 180.5 N.
+  EXPECT_EQ(with([](ContactRecord& c) { c.plates[0].force_N = c.plates[1].force_N = 180.5; }),
+            Ids{});
+  EXPECT_EQ(with([](ContactRecord& c) { c.plates[0].force_N = c.plates[1].force_N = 181.5; }),
+            (Ids{"paddle_force_above", "detector_force_above"}));
   EXPECT_EQ(with([](ContactRecord& c) { c.plates[0].force_N = c.plates[1].force_N = 49.8; }),
             Ids{});
   EXPECT_EQ(with([](ContactRecord& c) { c.plates[0].force_N = c.plates[1].force_N = 49.5; }),

@@ -175,6 +175,25 @@ TEST(Suppressed, MuscleTwiceAsBrightShowsTheWall) {
             6);
 }
 
+// Where suppression fails at the lateral border of the breast, this wall cannot be read; if it is one day, the
+// place has to be flagged.
+TEST(Suppressed, FailedSuppressionIsFlaggedOrRefused) {
+  const SyntheticScan& truth = patient().truth;
+  const double x = truth.half_width + 0.75 * truth.radius;
+  const Vec3 centre(x, truth.wall(x, 0) - 0.3 * truth.depth, 0);
+  const Volume<float> failed = truth.image_of(
+      [&](const Vec3& p) {
+        const double signal = patient().suppressed_at(p, 0.6);
+        return (p - centre).norm() < 25 && signal == 0.3 ? 1.2 : signal;
+      },
+      7);
+  try {
+    EXPECT_GT(run(failed, as_suppressed()).unsuppressed_ml, 10);
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("--also"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Suppressed, MuscleLittleBrighterIsRefusedWithTheNumberAndTheWaysOut) {
   const std::string reason = refusal(patient().suppressed, as_suppressed());
   for (const char* words : {"times as bright as fat (at least 1.2", "--chest-wall", "--also"})

@@ -174,7 +174,7 @@ TEST(Segmentations, FilesThatAreNoneAreRefused) {
   write_volume(bad, plain);
   EXPECT_TRUE(says(reason([&] { read_segmentation(bad); }), "names no segment"));
   Segment foreign{"Fat", 1, {}, {}};
-  SegmentedVolume volume{Volume<float>(plain.grid, 1), {foreign}, "x"};
+  SegmentedVolume volume{Volume<float>(plain.grid, 1), {foreign}, "x", ""};
   EXPECT_TRUE(says(reason([&] { labels_of(volume, {}, std::nullopt, "f"); }), "--side"));
   EXPECT_EQ(labels_of(volume, {}, Side::right, "f").side, Side::right);
   LabelVolume far = labels_of(volume, {}, Side::left, "f");

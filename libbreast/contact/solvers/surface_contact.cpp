@@ -251,19 +251,21 @@ bool SurfaceContact::stiffen(State& state, double allowed, ContactStep& step) {
     if (!step.softer) step.softer = softer;
     memory_.penalty *= factor;
     // The depth is inverse to the stiffness, and so is what remains of the way to rigid plates.
-    if (before_softer) {
-      state.x += (softer.x - before_softer->x) / stiffer;
-      state.p += (softer.p - before_softer->p) / stiffer;
+    const bool guessed = before_softer.has_value();
+    if (guessed) {
+      state.x += (softer.x - before_softer->x) / factor;
+      state.p += (softer.p - before_softer->p) / factor;
     }
     if (equilibrate(state, between_tolerance, allowed, step)) {
       before_softer = softer;
       continue;
     }
     before_softer.reset();
-    factor = std::sqrt(factor);
-    if (fail_fast_ || factor < least_stiffer) return false;
     state = softer;
     memory_ = memory;
+    if (guessed) continue;  // from the softer state itself
+    factor = std::sqrt(factor);
+    if (fail_fast_ || factor < least_stiffer) return false;
   }
   step.corrections += int(step.iterations.size() - before);
   return true;

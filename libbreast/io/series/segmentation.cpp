@@ -217,6 +217,7 @@ SegmentedVolume read_dicom_segmentation(const fs::path& file) {
   for (std::size_t n = 0; n < frames.size(); ++n) {
     const int k = int(std::lround((heights[n] - low) / grid.spacing[2]));
     const std::size_t slice = grid.offset(0, 0, k);
+    int described = 0;  // the last segment that was looked up
     for (std::size_t at = 0; at < pixels; ++at) {
       const int segment = segments.at(n * pixels + at, frames[n].segment);
       if (segment == 0) continue;
@@ -225,10 +226,11 @@ SegmentedVolume read_dicom_segmentation(const fs::path& file) {
         throw input_error(file.string(), ": segments ", int(voxel), " and ", segment,
                           " overlap: which of them a voxel belongs to is unknown");
       }
-      if (is_map && !is_described(read.segments, segment)) {
+      if (is_map && segment != described && !is_described(read.segments, segment)) {
         throw input_error(file.string(), ": frame ", n + 1, " shows segment ", segment,
                           ", which it does not describe");
       }
+      described = segment;
       voxel = float(segment);
     }
   }

@@ -103,7 +103,8 @@ struct MirrorImage {
 };
 
 MirrorImage mirror_image(const HeightField& skin, const Grid& grid) {
-  // Of people lying straight, a turn takes at most a sixth of the difference of their halves.
+  // Of the women at hand who lie straight, whose breasts are alike, a turn takes at most a sixth of the
+  // difference of their halves.
   constexpr double much_less = 0.7;
   const double deepest = grid.size[1] * grid.spacing[1];
   MirrorImage found;

@@ -361,6 +361,7 @@ std::string refusal_of_muscle(const MuscleOverFat& muscle) {
 std::string refusal_of(const SuppressedFat& fat) {
   const std::string muscle = refusal_of_muscle(fat.muscle);
   if (!muscle.empty()) return muscle;
+  // Between 1.45, at which the wall of a real scan with failed suppression is lost, and 2, the next that was tried.
   constexpr double least_beside_failed = 1.7;
   if (fat.failed_ml > 0 && fat.muscle.median < least_beside_failed)
     return message("fat is not suppressed in ", std::lround(fat.failed_ml),
