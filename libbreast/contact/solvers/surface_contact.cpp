@@ -239,8 +239,9 @@ bool SurfaceContact::begin(State& state, double tolerance, double allowed, Conta
   return equilibrate(state, tolerance, allowed, step);
 }
 
-/// Increases the stiffness until no point lies too deep, by a smaller factor after each increase for
-/// which no equilibrium is found.
+/// Increases the stiffness until no point lies too deep. Each solve begins at a state extrapolated from the
+/// last two; where that finds no equilibrium, at the last state itself, and after that the factor of the
+/// increase becomes smaller.
 bool SurfaceContact::stiffen(State& state, double allowed, ContactStep& step) {
   const std::size_t before = step.iterations.size();
   double factor = stiffer;

@@ -80,8 +80,8 @@ DicomStack part_of(const DicomStack& whole, Part slices) {
   return part;
 }
 
-/// Divided by one mark; empty if it does not tell all images at one place apart. Of the kinds some may have
-/// images at few places, so that no place has all of them.
+/// The stack divided by one mark; empty if two images at the same place carry the same mark. A kind may have
+/// images at a few places only (a map, a projection), so that no place need have all kinds.
 std::vector<DicomStack> by_one(const DicomStack& stack, Mark mark, std::size_t wanted) {
   const Parts parts = divided(stack.slices, mark);
   const bool enough = mark == Mark::kind ? parts.size() >= wanted : parts.size() == wanted;

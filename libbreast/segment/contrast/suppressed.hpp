@@ -53,7 +53,8 @@ std::string refusal_of(const SuppressedFat& fat);
 /// Where fat is not suppressed, it is hardly told from gland, and the level beside it may not hold: within 10 mm of
 /// it the wall's confidence falls below one half, and its standard deviation grows by 6 mm.
 void doubt_wall_by_failed(Work& work, const SuppressedFat& fat);
-/// Says where in the body (patient mm) fat is not suppressed; empty if it is everywhere.
+/// A sentence that states where in the body fat is not suppressed (a box in patient mm); empty if all fat is
+/// suppressed.
 std::string doubt_of_failed(const SuppressedFat& fat);
 
 }  // namespace breast
