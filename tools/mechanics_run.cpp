@@ -94,7 +94,10 @@ void MechanicsRun::finish(const Equilibrium& found, const std::filesystem::path&
       remove_series(series_folder(output));
   }
   if (enough) run_.warn(found.record.reason);
-  if (!found.converged() && !enough) throw not_converged_error(found.record.reason);
+  if (found.converged() || enough) return;
+  const bool offer = found.record.status == SolveStatus::not_gripped && !keep_unconverged_;
+  throw not_converged_error(found.record.reason,
+                            offer ? ", or --keep-unconverged to write this shape" : "");
 }
 
 }  // namespace breast

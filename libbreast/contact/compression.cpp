@@ -267,10 +267,8 @@ void Compression::refuse_without_grip() {
   if (why.empty()) return;
   found_.record.status = SolveStatus::not_gripped;
   found_.reason_id = "not_gripped";
-  found_.record.reason = message(
-      "the plates do not grip the breast: ", why,
-      ". Try a smaller --image-edge, more force, another --turn, or --keep-unconverged to write "
-      "this shape");
+  found_.record.reason = message("the plates do not grip the breast: ", why,
+                                 ". Try a smaller --image-edge, more force or another --turn");
 }
 
 /// Completed fraction of the path to the target.

@@ -17,6 +17,7 @@ sys.path[:0] = [str(HERE), str(HERE.parent.parent / "python")]
 import small_run  # noqa: E402
 
 small_run.programs = pathlib.Path(sys.argv[1]).resolve()
+sys.argv[0] = str(small_run.programs / "tabulate")  # what programs are beside
 loader = unittest.TestLoader()
 suite = loader.loadTestsFromNames(sys.argv[2:]) if sys.argv[2:] else loader.discover(str(HERE))
 passed = unittest.TextTestRunner(verbosity=2).run(suite).wasSuccessful()

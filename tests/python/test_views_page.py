@@ -6,6 +6,7 @@ import json
 import re
 import shutil
 import unittest
+import unittest.mock
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -24,6 +25,7 @@ try:
     from breast.page.patient import read_patient
     from breast.page.remarks import banners_of, remarks_of
     from breast.page.views_page import read_views, views_page
+    from breast.state_file import read_state
     without_jinja = ""
 except ImportError:
     without_jinja = "python3-jinja2 is not installed"
@@ -179,9 +181,13 @@ class WhatIsSaid(unittest.TestCase):
 
     def moved_tumour(self):
         """The views with the tumour in the middle of an element that both images show, and its place in CC."""
-        (image, cc), (_, mlo) = self.views.pairs
+        ((image, cc), (_, mlo)), lookup = self.views.pairs, self.views.lookups[0]
+
+        def far_apart(uv):
+            node = lookup.node(*uv)
+            return min(uv) > 0 and lookup.status[node] == 1 and np.linalg.norm(np.ptp(lookup.curve_mm[node], axis=0)) > 30
         element = next(e for e, point in enumerate(cc.centres()) if cc.element_numbers[e] == mlo.element_numbers[e] and
-                       (line := line_at(self.views.lookups[0], image.project(point[None])[0])) and line.status == 1 and line.length_mm > 30)
+                       far_apart(image.project(point[None])[0]))
 
         def moved(state):
             landmark = Landmark("tumour", state.centres("imaged")[element], element, np.zeros(3), 0)
@@ -190,15 +196,27 @@ class WhatIsSaid(unittest.TestCase):
         return (dataclasses.replace(self.views, pairs=pairs, body=pairs[0][1], origin="given"),
                 image.project(pairs[0][1].landmark_position("tumour")[None])[0])
 
-    def test_the_line_is_that_of_the_matcher(self):
-        views, (u, v) = self.moved_tumour()
+    def test_lines_and_bands_are_those_of_the_matcher_both_ways(self):
+        views, _ = self.moved_tumour()
+        self.assertIn("how far to either side of it is not known for this run", words_of(views_page(self.run_folder, views)), "no band")
         run = small_run.scratch("line")
-        small_run.tool(f"cc2mlo {self.run_folder}/cc.vtkhdf {self.run_folder}/mlo.vtkhdf c.vtp --point {u},{v} --report c.json", run)
-        length = json.loads((run / "c.json").read_text())["curve_mm"]
-        words = words_of(views_page(self.run_folder, views))
-        said = float(re.search(r"The tumour, seen in CC alone, lies in MLO somewhere on a line of (\d+) mm", words)[1])
-        self.assertLess(abs(said - length), 3, "between points 5 mm apart")
-        self.assertIn("how far to either side of it is not known for this run", words, "no derivatives, no band")
+        shutil.copytree(self.run_folder, run, dirs_exist_ok=True)
+        for view in ("cc", "mlo"):
+            small_run.tool(f"sensitivity reference.vtkhdf {view}.vtkhdf {view}-sensitivity.vtkhdf", run)
+        views = dataclasses.replace(views, pairs=[(image, dataclasses.replace(state, file=run / state.file.name)) for image, state in views.pairs])
+        words = words_of(views_page(run, views))
+        for k, (here, there) in enumerate((("cc", "mlo"), ("mlo", "cc"))):
+            u, v = views.pairs[k][0].project(views.pairs[k][1].landmark_position("tumour")[None])[0]
+            small_run.tool(f"cc2mlo {here}-sensitivity.vtkhdf {there}-sensitivity.vtkhdf c.vtp --point {u},{v} --band --table c.tsv "
+                           "--curve-table b.tsv", run)
+            length = breast.read_table(run / "c.tsv", pandas=False)[0]["curve_mm"]
+            widest = max(row["deviation_mm"] for row in breast.read_table(run / "b.tsv", pandas=False))
+            said = re.search(rf"seen in {here.upper()} alone, lies in {there.upper()} somewhere on a line of (\d+) mm, up to (\d+) mm", words)
+            self.assertEqual([int(n) for n in said.groups()], [round(float(length)), round(1.644854 * float(widest))])
+        small_run.tool("compress reference.vtkhdf cc.vtkhdf --view CC --reduction 20 --at-least 15", run)
+        other = [(views.pairs[0][0], read_state(run / "cc.vtkhdf")), views.pairs[1]]
+        with self.assertRaisesRegex(BreastError, "cc-sensitivity.vtkhdf.*another compression than cc.vtkhdf"):
+            line_at((other[0][1], other[1][1]), np.array([30.0, 40]))
 
     def test_a_tumour_outside_the_images_is_said_and_not_drawn(self):
         self.assertIn("does not lie in the CC image but behind its back edge", words_of(self.page))
@@ -206,8 +224,11 @@ class WhatIsSaid(unittest.TestCase):
         self.assertFalse('<circle class="artificial" cx' in views)
 
     def test_a_band_is_said_as_its_widest_half(self):
-        lookups = tuple(dataclasses.replace(lookup, deviation_mm=np.full_like(lookup.deviation_mm, 9.1)) for lookup in self.views.lookups)
-        page = views_page(self.run_folder, dataclasses.replace(self.moved_tumour()[0], lookups=lookups))
+        def wide(*place):
+            line = line_at(*place)
+            return dataclasses.replace(line, deviation=np.full(len(line.points), 9.1), across=np.tile([0.6, 0.8], (len(line.points), 1)))
+        with unittest.mock.patch("breast.page.lines.line_at", wide):
+            page = views_page(self.run_folder, self.moved_tumour()[0])
         self.assertIn("up to 15 mm to either side of it (90 %)", words_of(page))
         self.assertEqual(page.count('<path class="band" d="M'), 3, "in both pictures and in the legend")
 
@@ -263,8 +284,18 @@ class WhatIsSaid(unittest.TestCase):
             self.assertIn(said, words_of(page))
             self.assertIn("There is no MLO image", words_of(page))
             self.assertIn("tumour in CC</title>", page)  # the title promises no view that is missing
-            self.assertIn("it &lt;slips&gt;", page)
+            self.assertEqual(page.count("it &lt;slips&gt;"), 2, "in the banner, for want of words, and among what the programs say")
             self.assertTrue('id="picture-CC"' in page and 'id="picture-MLO"' not in page and 'id="data"' not in page)
+        why = ("the plates do not grip the breast: the rounded edge carries 59 % of the paddle's force (less than 40 % are allowed). Try a "
+               "smaller --image-edge")
+        (run / "mlo.json").write_text(json.dumps({"view": "MLO", "accepted": False, "status": "not_gripped", "explanation": why,
+                                                  "warnings": ["skin lies 2 mm deep in the chest wall"]}))
+        page = views_page(run, read_views(run, None))
+        banner = page.partition('class="banner"')[2].partition("</div>")[0]
+        self.assertIn("press mainly with their edge", banner)
+        self.assertNotIn("--image-edge", banner, "a reader has no options")
+        self.assertNotIn("reaches into the chest wall", words_of(page), "of a shape that is not shown")
+        self.assertIn("mlo: skin lies 2", page)
         shutil.copy(run / "mlo.json", run / "cc.json")
         self.assertEqual(read_views(run, None).pairs, [])
         self.assertEqual(len(banners_of(run)), 2)

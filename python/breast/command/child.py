@@ -11,7 +11,7 @@ import sys
 from collections.abc import Callable, Sequence
 from typing import IO, NamedTuple
 
-from ..errors import Failed
+from ..errors import BreastError, Failed
 
 _PR_SET_PDEATHSIG = 1
 
@@ -67,6 +67,15 @@ def capture_child(words: Sequence[str]) -> Captured:
     child = _start(words, subprocess.PIPE, subprocess.PIPE)
     out, err = child.communicate()
     return Captured(_code(child.returncode), os.fsdecode(out), os.fsdecode(err))
+
+
+def told(words: Sequence[str]) -> str:
+    """The output of a program beside this one. Raises the error with which it ended."""
+    ended = capture_child([beside(words[0]), *words[1:], "--quiet"])
+    if ended.exit_code == 0:
+        return ended.out
+    last = (ended.err.splitlines() or [f"{words[0]} ended with {ended.exit_code}"])[-1].removeprefix(f"{words[0]}: ")
+    raise (BreastError if ended.exit_code == 2 else Failed)(last)
 
 
 def follow_child(words: Sequence[str], say: Callable[[str], None], tick: Callable[[], None], out: IO | None = None) -> int:

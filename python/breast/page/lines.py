@@ -1,16 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where a point of one view may lie in the other, between the points of a lookup."""
+"""Where a point of one view may lie in the other, as cc2mlo says it."""
 from __future__ import annotations
 
+import tempfile
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 
-from ..lookup import Lookup
+from ..command.child import told
+from ..curves import read_curves
+from ..errors import BreastError
+from ..state import State
+from ..state_file import read_state
+from ..study.table import read_table
 
-SIDES_90 = 1.6449
-"""Standard deviations to either side of a normal distribution that hold 90 %."""
-_THROUGH_WALL, _BEHIND_IMAGE = 2, 3
+SIDES_90, _SIDES_95 = 1.644854, 1.959964
+"""Standard deviations to either side of a normal distribution that hold 90 and 95 %."""
 
 
 @dataclass(frozen=True)
@@ -19,19 +25,17 @@ class MatchedLine:
 
     Attributes:
         points: (n, 2) u, v in the other image, mm.
-        deviation: (n) one standard deviation across the line, mm; 0 where the lookup has none.
+        deviation: (n) one standard deviation across the line, mm; 0 without a band.
         across: (n, 2) unit vectors across it.
-        status: code of the nearest point of the lookup, see lookup.STATUS.
+        status: of cc2mlo's table.
+        length_mm: of the line.
     """
 
     points: np.ndarray
     deviation: np.ndarray
     across: np.ndarray
-    status: int
-
-    @property
-    def length_mm(self) -> float:
-        return float(np.linalg.norm(np.diff(self.points, axis=0), axis=1).sum())
+    status: str
+    length_mm: float
 
     @property
     def to_either_side_mm(self) -> float:
@@ -51,31 +55,33 @@ class MatchedLine:
 
     def remark(self) -> str:
         """What limits the line, in words; "" if nothing does."""
-        return {_THROUGH_WALL: "The line ends where its tissue meets the chest wall.",
-                _BEHIND_IMAGE: "Part of the line lies behind the back edge of the image."}.get(self.status, "")
+        return {"through_chest_wall": "The line ends where its tissue meets the chest wall.",
+                "behind_image": "Part of the line lies behind the back edge of the image."}.get(self.status, "")
 
 
-def line_at(lookup: Lookup, uv: np.ndarray) -> MatchedLine | None:
-    """The line of a point (2), mm, of the lookup's first image; None in air or outside.
+def line_at(states: tuple[State, State], uv: np.ndarray) -> MatchedLine | None:
+    """The line in the second of two compressions of a point (2), mm, of the first one's image, as cc2mlo computes it; None in air.
 
-    Between four points of the grid in tissue by bilinear weights; where one of them is in air, that of the nearest point.
+    With a band where both compressions have their derivatives beside them. Raises BreastError where these are of other compressions.
     """
-    x, y = np.asarray(uv, float) / lookup.pitch_mm
-    nv, nu = lookup.status.shape
-    if not (0 <= x <= nu - 1 and 0 <= y <= nv - 1):
-        return None
-    i, j = min(int(x), max(nu - 2, 0)), min(int(y), max(nv - 2, 0))
-    f, g = x - i, y - j
-    corners = [((min(j + b, nv - 1), min(i + a, nu - 1)), (f if a else 1 - f) * (g if b else 1 - g)) for b in (0, 1) for a in (0, 1)]
-    nearest = max(corners, key=lambda corner: corner[1])[0]
-    status = int(lookup.status[nearest])
-    if status == 0:
-        return None
-    used = corners if all(lookup.status[node] for node, _ in corners) else [(nearest, 1.0)]
-
-    def mean(values: np.ndarray) -> np.ndarray:
-        return sum(weight * values[node].astype(float) for node, weight in used)
-    return MatchedLine(mean(lookup.curve_mm), mean(lookup.deviation_mm), mean(lookup.across), status)
+    files = [state.file.with_name(f"{state.file.stem}-sensitivity.vtkhdf") for state in states]
+    banded = all(file.exists() for file in files)
+    for state, file in zip(states, files) if banded else ():
+        if not {*state.history} <= {*read_state(file).history}:
+            raise BreastError(f"was made of another compression than {state.file.name}", file, "run sensitivity again")
+    with tempfile.TemporaryDirectory(prefix="breast-line-") as folder:
+        drawn, table = (str(Path(folder) / name) for name in ("curve.vtp", "curve.tsv"))
+        told(["cc2mlo", *map(str, files if banded else [state.file for state in states]), drawn, "--point", f"{uv[0]},{uv[1]}",
+              "--table", table, *(["--band"] if banded else [])])
+        row = read_table(table)
+        if row.cell(0, "status") == "air":
+            return None
+        lines = read_curves(drawn)
+    points = lines["curve"][0].uv_mm
+    low, high = (line.uv_mm for line in lines["band 95"]) if banded else (points, points)
+    width = np.linalg.norm(high - low, axis=1)
+    across = np.divide(high - low, width[:, None], out=np.zeros_like(points), where=width[:, None] > 0)
+    return MatchedLine(points, width / (2 * _SIDES_95), across, row.cell(0, "status"), row.number(0, "curve_mm"))
 
 
 def _turning(corners: np.ndarray) -> np.ndarray:

@@ -155,11 +155,14 @@ def _lines_of_tumour(views: Views) -> list[MatchedLine | None]:
     """For each view, the line on which the tumour lies there, as seen in the other view alone."""
     from .lines import line_at
 
-    if views.origin == "none" or views.lookups is None:
+    if views.origin == "none" or len(views.pairs) < 2:
         return [None for _ in views.pairs]
-    found = [line_at(lookup, image.project(state.landmark_position("tumour")[None])[0])
-             for lookup, (image, state) in zip(views.lookups, views.pairs)]
-    return found[::-1]
+
+    def line(image: Mammogram, here: State, there: State) -> MatchedLine | None:
+        place = image.project(here.landmark_position("tumour")[None])[0]
+        left, right, bottom, top = image.extent_mm()
+        return line_at((here, there), place) if left <= place[0] <= right and bottom <= place[1] <= top else None
+    return [line(image, here, there) for (image, here), (_, there) in (views.pairs, views.pairs[::-1])][::-1]
 
 
 def _pictures(views: Views, lines: list[MatchedLine | None]) -> list[Any]:
@@ -199,7 +202,8 @@ def _answer_title(views: Views) -> str:
 def _answer(views: Views, lines: list[MatchedLine | None]) -> list[str]:
     """The result in sentences."""
     if len(views.pairs) < 2:
-        return ["Without both views no place of one view can be found in the other."]
+        alone = f"With {views.pairs[0][0].view} alone" if views.pairs else "Without a simulated view"
+        return [f"{alone}, no place can be followed from one view to the other."]
     names = [image.view for image, _ in views.pairs]
     if views.origin == "none":
         return [f"No tumour was given for this breast. Point at any place of {names[0]} or {names[1]} below to see on which line of the "
@@ -215,10 +219,12 @@ def _answer(views: Views, lines: list[MatchedLine | None]) -> list[str]:
                  "; how far to either side of it is not known for this run")
         said.append(f"{the}, seen in {here} alone, lies in {there} somewhere on a line of {line.length_mm:.0f} mm{sides}. "
                     f"{line.remark()}".strip())
+    if not any(lines):
+        return said
     without = _not_counted(views)
     if without and any(line and line.to_either_side_mm > 0 for line in lines):
         said.append(f"Not counted in the 90 %: {without}.")
-    return [*said, "A ring is where the model has it: the MR shows its depth, which one mammogram does not."]
+    return [*said, "The ring marks where the model has it. That is known from the MR; one mammogram alone does not show the depth."]
 
 
 def _not_counted(views: Views) -> str:

@@ -18,6 +18,7 @@ from .summary import lines_of
 _TEMPLATES = Path(__file__).with_name("templates")
 _STANDS_OUT = ("fails", "differs", "missing", "failed")
 _NUMBER = re.compile(r"[-+0-9.eE]+")
+_UNIT = re.compile(r"(?<=\d) (?=(?:mm|cm2|ml|N|kPa|degrees)\b|%)")
 
 
 @dataclass
@@ -74,8 +75,13 @@ def page(template: str, folder: Path = _TEMPLATES, **context: Any) -> str:
 
     loader = jinja2.FileSystemLoader([folder, _TEMPLATES])
     environment = jinja2.Environment(loader=loader, autoescape=True, trim_blocks=True, lstrip_blocks=True,
-                                     undefined=jinja2.StrictUndefined)
+                                     undefined=jinja2.StrictUndefined, finalize=_unbroken)
     return valid(environment.get_template(f"{template}.html.jinja").render(**context))
+
+
+def _unbroken(shown: Any) -> Any:
+    """Numbers stay on one line with their units."""
+    return _UNIT.sub("\u00a0", shown) if type(shown) is str else shown
 
 
 def _cell_class(cell: str) -> str:

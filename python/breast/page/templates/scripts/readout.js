@@ -1,6 +1,5 @@
 // One line about the spot pointed at or the point chosen, in words and, for programs, as data.
-const statusText = ['air', 'matched', 'column leaves through the chest wall, the curve ends there',
-                    'part of the curve lies behind the image'];
+const statusText = ['beside the breast', '', 'the line ends where its tissue meets the chest wall', 'part of the line lies behind the back edge of the image'];
 function tell() {
   const readout = document.getElementById('readout'), point = hover || chosen, slider = document.getElementById('depth');
   delete readout.dataset.curve;

@@ -11,7 +11,7 @@ const slice = (() => {
   const grey = bytes(scan.grey), [nx, ny, nz] = scan.size, [dx, dy, dz] = scan.spacing, [x0, y0, z0] = scan.origin;
   const picture = document.createElement('canvas');
   Object.assign(picture, {width: nx, height: ny});
-  const centre = data.body.landmarks.find(mark => mark.name === 'nipple');
+  const centre = data.body.landmarks.find(mark => mark.name !== 'nipple') || data.body.landmarks[0];
   const shades = {width: 1, level: 0.5};
   let k = -1, stale = true, wanted = Math.round(((centre ? centre.at[2] : data.body.middle[2]) - z0) / dz);
   const bounded = index => Math.max(0, Math.min(nz - 1, index));
