@@ -28,21 +28,16 @@ using namespace breast;
 
 namespace {
 
-/// The voxels that a file marks as tumour. A volume with one value besides 0 is a mask, whatever tissue
-/// has this value in labels.
-LabelVolume marked_by(const std::string& file, Run& run) {
+/// A volume with one value besides 0 is a mask of the tumour, whatever tissue has this value in labels.
+TissueCodes codes_of_mask(const Volume<float>& volume) {
+  const auto marked = std::find_if(volume.voxels.begin(), volume.voxels.end(),
+                                   [](float value) { return value != 0; });
+  const bool mask = marked != volume.voxels.end() &&
+                    std::all_of(marked, volume.voxels.end(),
+                                [&](float value) { return value == 0 || value == *marked; });
   TissueCodes codes;
-  const bool own = std::filesystem::path(file).extension() == ".vtkhdf";
-  if (!own && !is_segmentation_file(file)) {
-    const Volume<float> volume = read_volume(file, 0);
-    const auto marked = std::find_if(volume.voxels.begin(), volume.voxels.end(),
-                                     [](float value) { return value != 0; });
-    const bool mask = marked != volume.voxels.end() &&
-                      std::all_of(volume.voxels.begin(), volume.voxels.end(),
-                                  [&](float value) { return value == 0 || value == *marked; });
-    if (mask) codes.values = {{0, Tissue::air}, {int(*marked), Tissue::tumour}};
-  }
-  return read_tissues(file, codes, run);
+  if (mask) codes.values = {{0, Tissue::air}, {int(*marked), Tissue::tumour}};
+  return codes;
 }
 
 /// What --tumour names; nothing for "none" and "auto".
@@ -55,7 +50,7 @@ std::optional<Tumour> given_tumour(const std::string& given, const Origin& label
     const MarkupPoint point = point_named(read_markups(given), "tumour", "--tumour " + given);
     return Tumour{point.at, 0, "point of 3D Slicer", false};
   }
-  const LabelVolume marked = marked_by(given, run);
+  const LabelVolume marked = read_tissues(given, {}, run, codes_of_mask);
   pairs.check("LABELS", labels, "--tumour", origin_of(given, marked, false));
   return tumour_of(marked, given);
 }

@@ -81,7 +81,8 @@ void declare_label_choices(Tool& tool, const std::string& name, LabelChoices& ch
   tool.topic("labels from another program", {"--code", "--side", "--native", "--accept-other"});
 }
 
-LabelVolume read_tissues(const fs::path& file, const TissueCodes& codes, Run& run) {
+LabelVolume read_tissues(const fs::path& file, const TissueCodes& codes, Run& run,
+                         const std::function<TissueCodes(const Volume<float>&)>& unnamed) {
   if (is_native(file)) return read_labels(file);
   LabelVolume labels;
   if (is_segmentation_file(file)) {
@@ -93,7 +94,8 @@ LabelVolume read_tissues(const fs::path& file, const TissueCodes& codes, Run& ru
     return labels;
   }
   VolumeSource source;
-  labels = translate_labels(read_volume(file, 0, &source), codes, file.string());
+  const Volume<float> volume = read_volume(file, 0, &source);
+  labels = translate_labels(volume, unnamed ? unnamed(volume) : codes, file.string());
   labels.content_sha256 = source.content_sha256;
   return labels;
 }

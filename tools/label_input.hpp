@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -40,7 +41,8 @@ std::vector<Run::Input> inputs_of(const std::filesystem::path& file, const Label
                                   const LabelInput& input);
 
 /// Reads only the tissues of any label map, and what it says of its origin. Remarks on how it was read go to
-/// the run's user.
-LabelVolume read_tissues(const std::filesystem::path& file, const TissueCodes& codes, Run& run);
+/// the run's user. `unnamed`: the codes of a map whose values have no names, instead of `codes`.
+LabelVolume read_tissues(const std::filesystem::path& file, const TissueCodes& codes, Run& run,
+                         const std::function<TissueCodes(const Volume<float>&)>& unnamed = nullptr);
 
 }  // namespace breast

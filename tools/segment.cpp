@@ -187,15 +187,13 @@ bool holds_points(const std::filesystem::path& file) {
 /// Muscle is the chest wall; a map without muscle is refused before the scan is read.
 LabelVolume read_wall_labels(const std::filesystem::path& file, const TissueCodes& codes,
                              Run& run) {
-  LabelVolume labels;
-  if (codes.empty() && file.extension() != ".vtkhdf" && !is_segmentation_file(file)) {
-    // Only the code of the chest wall matters: a map may have other codes of its own.
-    TissueCodes wall;
-    wall.values[int(Tissue::muscle)] = Tissue::muscle;
-    labels = read_tissues(file, wall, run);
-  } else {
-    labels = read_tissues(file, codes, run);
-  }
+  // Only the code of the chest wall matters: a map without names may have other codes of its own.
+  const auto unnamed = [&](const Volume<float>&) {
+    TissueCodes wall = codes;
+    if (codes.empty()) wall.values[int(Tissue::muscle)] = Tissue::muscle;
+    return wall;
+  };
+  LabelVolume labels = read_tissues(file, codes, run, unnamed);
   if (std::find(labels.tissue.begin(), labels.tissue.end(), std::uint8_t(Tissue::muscle)) ==
       labels.tissue.end()) {
     throw input_error(

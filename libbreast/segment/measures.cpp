@@ -65,8 +65,8 @@ std::vector<Quantity> measures_of(const Segmentation& result) {
   add("fibroglandular_to_fat", "fibroglandular_to_fat", result.gland_ratio);
   add("wall_confidence_mean", "chest_wall/confidence_mean", result.wall_confidence_mean);
   add("wall_confident_percent", "chest_wall/confident_percent", result.wall_confident_percent);
-  if (result.muscle_back_percent > 0)
-    add("muscle_back_percent", "chest_wall/muscle_back_percent", result.muscle_back_percent);
+  if (result.muscle_back_percent)
+    add("muscle_back_percent", "chest_wall/muscle_back_percent", *result.muscle_back_percent);
   add("wall_sigma_mean_mm", "chest_wall/sigma_mean_mm", result.wall_sigma_mean);
   add("wall_sigma_p95_mm", "chest_wall/sigma_p95_mm", result.wall_sigma_p95);
   add("wall_shift_sigmas", "chest_wall/shift_sigmas", result.wall_shift);

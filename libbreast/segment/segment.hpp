@@ -68,7 +68,8 @@ struct Segmentation {
   double fat_fraction = 0, fat_fraction_grown = 0, fibroglandular_agreement = 0;
   double wall_confidence_mean = 0;                 ///< over the breast's columns
   double wall_sigma_mean = 0, wall_sigma_p95 = 0;  ///< mm, over the breast's columns
-  double muscle_back_percent = 0;     ///< columns in which the muscle of wall_labels has a back
+  std::optional<double>
+      muscle_back_percent;            ///< columns in which the muscle of wall_labels has a back
   double wall_confident_percent = 0;  ///< columns with confidence above 0.5
   double sternal_thickness = 0, greatest_thickness = 0;  ///< mm
   double nipple_from_extreme = 0;                        ///< mm

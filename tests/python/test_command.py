@@ -143,7 +143,7 @@ class Requests(unittest.TestCase):
 
     def test_nearest_commands(self):
         here = SimpleNamespace(tools={"forward": "", "backward": "", "segment": ""})
-        self.assertEqual(unknown_command(here, "segmnt"), "'segmnt' is neither a command nor a tool; did you mean 'segment'?")
+        self.assertEqual(unknown_command(here, "segmnt"), "'segmnt' is no command, tool or setting; did you mean 'segment'?")
         self.assertIn("'demo'", unknown_command(here, "dem"))
         self.assertIn("`breast help` lists them", unknown_command(here, "xyzzy"))
 

@@ -260,7 +260,7 @@ TEST(Segment, TheBackOfAGivenMuscleIsKept) {
       }
     }
     const Segmentation result = run(truth.image(), options);
-    percent = result.muscle_back_percent;
+    percent = result.muscle_back_percent.value();
     return result.labels;
   };
   double percent = 0, without_back = 0;

@@ -39,11 +39,11 @@ def overview(installation: Installation) -> str:
 
 
 def unknown_command(installation: Installation, given: str, more: Iterable[str] = ()) -> str:
-    """"'segmnt' is neither a command nor a tool; did you mean 'segment'?", with up to three names, also of `more`."""
+    """"'segmnt' is no command, tool or setting; did you mean 'segment'?", with up to three names, also of `more`."""
     from .nearest import nearest
     names, near = [*COMMANDS, *installation.tools, *more], []
     while len(near) < 3 and (best := nearest(given, names)):
         near.append(best)
         names.remove(best)
     hint = f"did you mean {' or '.join(map(repr, near))}?" if near else "`breast help` lists them"
-    return f"'{given}' is neither a command nor a tool; {hint}"
+    return f"'{given}' is no command, tool or setting; {hint}"

@@ -39,8 +39,13 @@ class MatchedLine:
 
     @property
     def to_either_side_mm(self) -> float:
-        """Half the width of the 90 % band where it is widest; 0 if it is not known."""
-        return SIDES_90 * float(self.deviation.max())
+        """Half the width of the 90 % band, which at most a tenth of the line exceeds: where a line has a sharp corner, across it is partly
+        along it, and the band is wider there. 0 if it is not known."""
+        length = np.linalg.norm(np.diff(self.points, axis=0), axis=1)
+        deviation = 0.5 * (self.deviation[1:] + self.deviation[:-1])
+        order = np.argsort(deviation)
+        reached = np.cumsum(length[order]) >= 0.9 * length.sum()
+        return SIDES_90 * float(deviation[order][reached.argmax()])
 
     def band(self) -> list[np.ndarray]:
         """The 90 % band as quadrilaterals (4, 2), one for each piece of the line, which all turn the same way, so that they add up

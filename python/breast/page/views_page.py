@@ -215,7 +215,7 @@ def _answer(views: Views, lines: list[MatchedLine | None]) -> list[str]:
             said.append(f"{the} does not lie in the {here} image but behind its back edge, or beside the breast: nothing is said about "
                         f"{there} from {here} alone.")
             continue
-        sides = (f", up to {line.to_either_side_mm:.0f} mm to either side of it (90 %)" if line.to_either_side_mm > 0 else
+        sides = (f", about {line.to_either_side_mm:.0f} mm to either side of it (90 %)" if line.to_either_side_mm > 0 else
                  "; how far to either side of it is not known for this run")
         said.append(f"{the}, seen in {here} alone, lies in {there} somewhere on a line of {line.length_mm:.0f} mm{sides}. "
                     f"{line.remark()}".strip())

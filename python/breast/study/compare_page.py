@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..page.remarks import Remark, banners_of, remarks_of
+from ..page.remarks import Banner, Remark, banners_of, remarks_of
 from .compared_runs import TOPICS, Pair
 from .files import exists
 from .html import Block, Section, data_uri, page, table, text
@@ -39,7 +39,7 @@ class Picture:
 @dataclass(frozen=True)
 class _Side:
     name: str
-    banners: list[tuple[str, str]]
+    banners: list[Banner]
     remarks: list[Remark]
 
 
