@@ -186,7 +186,7 @@ class WhatIsSaid(unittest.TestCase):
         self.assertEqual(set(re.findall(r'data-key="(\w+)"', self.page)), {*expected}, "no row without its check")
         for key, values in expected.items():
             np.testing.assert_allclose(number_of(self.page, key), values, atol=0.051 if key == "density" else 0.501, err_msg=key)
-        self.assertIn(f"MR axial {slices[0]} of {slices[1]}", words_of(self.page))
+        self.assertIn(f"MR {slices[0]} of {slices[1]}", words_of(self.page))
         self.assertIn(facts.density_class(self.report["labels"]["density_percent"]), words_of(self.page))
 
     def moved_tumour(self):

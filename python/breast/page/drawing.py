@@ -140,7 +140,7 @@ def slice_picture(scan: Volume, state: State) -> Picture:
     grey = scan.sample(places.reshape(-1, 3), 0).reshape(rows, columns)
     white = max(float(np.percentile(grey, 99.5)), 1e-30)
     picture = Picture("MR", (float(size[0]), float(size[1])), (0.0, 0.0, float(size[0]), float(size[1])),
-                      _png(np.clip(grey / white, 0, 1) ** _GAMMA), f"MR {plane_name} {number} of {count}", plane.words, True,
+                      _png(np.clip(grey / white, 0, 1) ** _GAMMA), f"MR {number} of {count}", plane.words, True,
                       f"{plane_name.capitalize()} slice {number} of {count} of the MR scan through the {name}")
     normal = np.cross(plane.right, plane.up)
 
