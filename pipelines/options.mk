@@ -32,7 +32,7 @@ override COMPRESS_OPTIONS += $(call left_out,no-gravity-in-compression,--gravity
 override MATERIALS := $(call left_out,no-gland,$(RUN)/fat-only.tsv,$(MATERIALS))
 
 # Every table, verdict and page is made by tabulate, from reports, tables and shapes.
-tabulate = $(TABULATE) --quiet --pipelines $(PIPELINES)
+tabulate = $(BIN)/tabulate --quiet --pipelines $(PIPELINES)
 # The supports of the breast at its back; if empty, those with which the material set was found, or a held wall and a free cut.
 SUPPORT = $(addprefix --wall ,$(WALL)) $(addprefix --cut ,$(CUT))
 # The plates stop at the first of these limits; without any, where those of a screening mammogram do.
@@ -95,7 +95,7 @@ mlo-mammogram_options = $(PROJECT_OPTIONS)
 mlo-mammogram_settings = $(PROJECT) $(PROJECT_OPTIONS)
 curve_settings = $(CC2MLO)
 slopes_options = $(its_prone) $(its_model) --parameters $(its_slopes)
-slopes_settings = $(SENSITIVITY) $(slopes_options)
+slopes_settings = $(BIN)/sensitivity $(slopes_options)
 
 # Options of every program: its report and its share of the cores. Where all others wait, a stage has all (but not in a cohort).
 share = --threads $$($(PIPELINES)/threads.sh)

@@ -13,14 +13,15 @@
 named = $(if $1,$(notdir $(patsubst %/,%,$1)):$(shell printf %s '$1' | sha256sum | cut -c1-12))
 record_file = $(or $($1_record),$(RUN)/.$1.settings)
 stale = $(if $(subst x$(strip $(file < $1))x,,x$(strip $2)x),FORCE)
-staged = @$(CASES) stage $1 $(call quoted,$(strip $2)) $3 --quiet --
+staged = @$(BIN)/cases stage $1 $(call quoted,$(strip $2)) $3 --quiet --
+named_stage = $(call staged,$(call record_file,$1),$($1_settings),$2)
 # In the folder of a study's row: the same, with the row's own options. A solve may end early, and what needed it with it.
 changed_in = $(call stale,$1/.$2.settings,$($2_settings))
-attempt = $(call staged,$(@D)/.$1.settings,$($1_settings)) $(CASES) attempt $@ '$2' --quiet --
+attempt = $(call staged,$(@D)/.$1.settings,$($1_settings)) $(BIN)/cases attempt $@ '$2' --quiet --
 changed = $(call stale,$(call record_file,$1),$($1_settings))
 # $(call prints,STAGE,FILE): the same of a program that prints FILE.
-prints = $(call staged,$(call record_file,$1),$($1_settings),--prints $2)
-stage = $(call staged,$(call record_file,$1),$($1_settings))
-pressed = $(call staged,$(call record_file,$1),$($1_settings),--keep $@)
-of_pressed = $(call staged,$(call record_file,$1),$($1_settings),--of '$(filter $(made_of_pressed),$^)')
+prints = $(call named_stage,$1,--prints $2)
+stage = $(call named_stage,$1)
+pressed = $(call named_stage,$1,--keep $@)
+of_pressed = $(call named_stage,$1,--of '$(filter $(made_of_pressed),$^)')
 made_of_pressed = $(addprefix $(RUN)/,cc.% mlo.% cc-sensitivity.% mlo-sensitivity.%)
