@@ -72,8 +72,8 @@ $(of_patient) &: $(both_views) $(mammograms) $(CC2MLO) $(call changed,patient)
 endif
 # The page is also made of what there is when the plates do not hold the breast: it says so. Animated pictures that `states` has made are
 # shown; as prerequisites their equilibria would be solved again, so that the page records them and their dates instead.
-shown_states = $(foreach file,$(wildcard $(addprefix $(F)/,supine-states.png cc-states.png mlo-states.png)),$(file) $(shell stat -c %Y $(file)))
-page_settings = $(BIN)/tabulate $(call named,$(MR)) $(page_options) $(of_patient) $(shown_states)
+dated = $(foreach file,$(wildcard $1),$(file) $(shell stat -c %Y $(file)))
+page_settings = $(BIN)/tabulate $(call named,$(MR)) $(page_options) $(of_patient) $(call dated,$(call pictures,supine-states cc-states mlo-states))
 $(RUN)/page.html: $(RUN)/lookup.h5 $(addprefix $(RUN)/,cc.vti mlo.vti labels.vtkhdf mesh.vtkhdf) $(of_patient) $(MR_FILES) $(BIN)/tabulate $(call changed,page)
 	@$(if $(of_patient),,rm -f $(addprefix $(RUN)/patient,.json .vtp .tsv -cc.png -mlo.png))
 	$(call prints,page,$@) $(tabulate) page $(RUN) $(MR) $(page_options)
@@ -103,9 +103,8 @@ all: $(FIGURES) tables $(if $(EXPECTED),verify) report
 .PHONY: page slicer verify report all
 # Results of the slow targets are embedded with their dates. As prerequisites they would be solved again whenever a program is
 # newer; therefore the page records these files and their dates instead.
-REPORT_EXTRAS = $(wildcard $(LEAVEOUT)/*.tsv $(RUN)/cost/*.tsv $(RUN)/cost/*.png $(RUN)/budget/*.tsv $(RUN)/budget/*.png \
-  $(RUNS)/stability/*.tsv $(RUNS)/compare/all.tsv $(RUNS)/compare/pressed.tsv $(addprefix $(RUNS)/population/,judging.tsv motion.png))
-report_settings = $(BIN)/tabulate $(foreach file,$(REPORT_EXTRAS),$(file) $(shell stat -c %Y $(file)))
+report_settings = $(BIN)/tabulate $(call dated,$(addprefix $(RUN)/,leaveout/*.tsv cost/*.tsv cost/*.png budget/*.tsv budget/*.png) \
+  $(addprefix $(RUNS)/,stability/*.tsv compare/all.tsv compare/pressed.tsv population/judging.tsv population/motion.png))
 report_record = $(RUN)/report.settings
 # The motion of the breast compared with living women, if the breast slides on its chest wall.
 $(RUN)/population.tsv: $(RUN)/supine.vtkhdf $(PIPELINES)/invivo/women.tsv $(BIN)/population
