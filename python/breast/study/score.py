@@ -8,9 +8,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..command.child import beside, capture_child
+from ..command.beside import printed_by
 from ..command.tool import Run, Tool
-from ..errors import BreastError, Failed
+from ..errors import BreastError
 from ..output import write_text
 from .seen import by_case, of_side, pairs_in, postures_in, read_seen
 from .stage_report import StageReport
@@ -39,15 +39,6 @@ class Score:
         if self.deviations is None:
             return NO_VALUE
         return next((f"{percent} %" for percent, width in _BANDS if abs(self.deviations) <= width), "outside")
-
-
-def _told(words: Sequence[str]) -> str:
-    """The output of a program beside this one. Raises the error with which it ended."""
-    ended = capture_child([beside(words[0]), *words[1:], "--quiet"])
-    if ended.exit_code == 0:
-        return ended.out
-    last = (ended.err.splitlines() or [f"{words[0]} ended with {ended.exit_code}"])[-1].removeprefix(f"{words[0]}: ")
-    raise (BreastError if ended.exit_code == 2 else Failed)(last)
 
 
 class _Case:
@@ -94,7 +85,7 @@ class _Case:
 
     def _of_postures(self, postures: list[str]) -> list[Score]:
         files = [self._state("mesh"), *(self._state(_FILES[posture]) for posture in postures)]
-        table = parse_table(_told(["probe", *filter(None, files), "--truth", self._truth()]), "probe --truth")
+        table = parse_table(printed_by("probe", [*filter(None, files), "--truth", self._truth()]), "probe --truth")
         scores = []
         for row in table:
             if row["landmark"] in ("mean", "largest"):
@@ -110,7 +101,7 @@ class _Case:
         if not all(views):
             raise BreastError("has no cc.vtkhdf and mlo.vtkhdf", self.run)
         table = self.work / "curve.tsv"
-        _told(["cc2mlo", *views, str(self.work / "curve.vtp"), *words, "--table", str(table), *(["--band"] if self.has_band() else [])])
+        printed_by("cc2mlo", [*views, str(self.work / "curve.vtp"), *words, "--table", str(table), *(["--band"] if self.has_band() else [])])
         return read_table(table)
 
     def _of_curve(self, table: Table, whose: str, landmark: str = "") -> list[Score]:
