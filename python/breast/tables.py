@@ -17,8 +17,8 @@ from .text_table import number_in
 def read_table(file: str | os.PathLike[str], pandas: bool | None = None) -> Any:
     """A table of the toolkit; the header's names carry the units (nipple_mm).
 
-    Columns of numbers become float64 or int64, and an empty cell or '-' (no value) in them becomes NaN. All other columns are text, "" where there
-    is no value.
+    Columns of numbers become float64 or int64, and an empty cell or '-' (no value) in them becomes NaN. All other columns are text,
+    with "" where there is no value.
 
     Args:
         file: a .tsv file; lines that begin with # are comments.
