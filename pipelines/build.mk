@@ -11,7 +11,7 @@ letters := $(filter-out -%,$(firstword $(MAKEFLAGS)))
 planning := $(findstring n,$(letters))$(findstring q,$(letters))
 # The settings are checked by the program `cases` before make or a shell expands them and before anything is computed. These
 # targets have no settings; for all others `cases` is built first, alone, and then the makefiles are read from the beginning.
-without_settings := help settings $(if $(INSTALLED),,setup build package api)
+without_settings := help $(if $(INSTALLED),,setup build package api)
 wanted := $(filter-out $(without_settings),$(goals))
 ready := $(and $(wanted),$(wildcard $(BIN)/cases))
 # Names given on the command line. Until their values have been checked, no recipe gets them: make would expand them first.

@@ -28,10 +28,10 @@ second_states := $(RUN)/second/predicted.vtkhdf $(RUN)/second/seen.vtp
 $(RUN)/figures/postures.png: $(RUN)/second/predicted.vtkhdf $(RUN)/second/seen.vtp $(RENDER)
 	@mkdir -p $(@D) && $(RENDER) $(filter %.vtkhdf %.vtp,$^) --figure postures -o $@
 endif
-identified_settings := $(IDENTIFY) $(content_LANDMARKS) $(content_MATERIALS) $(prior_set) $(SUPPORT) $(second_marks) $(second_skin) $(second_judge)
-$(RUN)/identified.tsv $(RUN)/landmarks.tsv $(second_states) &: $(RUN)/mesh.vtkhdf $(landmark_files) $(second_scan) $(supine_truth) $(IDENTIFY) \
+identified_settings := $(BIN)/identify $(content_LANDMARKS) $(content_MATERIALS) $(prior_set) $(SUPPORT) $(second_marks) $(second_skin) $(second_judge)
+$(RUN)/identified.tsv $(RUN)/landmarks.tsv $(second_states) &: $(RUN)/mesh.vtkhdf $(landmark_files) $(second_scan) $(supine_truth) $(BIN)/identify \
   $(call changed,identified)
-	$(call prints,identified,$(RUN)/identified.txt) $(IDENTIFY) $< $(RUN)/identified.tsv $(second_marks) --align $(second_skin) $(second_judge) --materials $(prior_set) $(SUPPORT) \
+	$(call prints,identified,$(RUN)/identified.txt) $(BIN)/identify $< $(RUN)/identified.tsv $(second_marks) --align $(second_skin) $(second_judge) --materials $(prior_set) $(SUPPORT) \
 	  $(addprefix --compare ,$(sort seed2008 $(prior_set))) --table $(RUN)/landmarks.tsv \
 	  --report $(RUN)/identified.json $(share)
 	@cat $(RUN)/identified.txt

@@ -10,8 +10,7 @@ facts := installed=$(if $(INSTALLED),yes) phantom=$(phantom) body_slides=$(body_
 $(call said,$(shell $(BIN)/cases check $(PIPELINES) $(if $(planning),0,$$PPID) $(call quoted,goals=$(goals)) $(call quoted,given=$(given)) \
   $(facts) $(foreach s,$(settings),$(call quoted,$s=$($s))) --quiet 2>&1))
 
-# A file that was replaced by one with an older date is another file, and one that was only touched is the same: stages know the files
-# that users edit by a digest.
+# Stages know the files that users edit by a digest: with an older date a file may be another one, and a touched one is the same.
 content = $(foreach f,$(wildcard $(filter-out $(RUNS)/%,$1)),$(shell [ ! -f $f ] || sha256sum < $f | cut -c 1-12))
 content_MATERIALS := $(call content,$(call set_of,$(MATERIALS)))
 content_TUMOUR := $(call content,$(TUMOUR))
@@ -32,7 +31,7 @@ override COMPRESS_OPTIONS += $(call left_out,no-gravity-in-compression,--gravity
 override MATERIALS := $(call left_out,no-gland,$(RUN)/fat-only.tsv,$(MATERIALS))
 
 # Every table, verdict and page is made by tabulate, from reports, tables and shapes.
-tabulate = $(TABULATE) --quiet --pipelines $(PIPELINES)
+tabulate = $(BIN)/tabulate --quiet --pipelines $(PIPELINES)
 # The supports of the breast at its back; if empty, those with which the material set was found, or a held wall and a free cut.
 SUPPORT = $(addprefix --wall ,$(WALL)) $(addprefix --cut ,$(CUT))
 # The plates stop at the first of these limits; without any, where those of a screening mammogram do.
@@ -74,14 +73,12 @@ its_model = $(its_mechanics) $(addprefix --wall ,$(its_wall)) $(addprefix --cut 
 labels_options = --side $(SIDE) $(addprefix --series ,$(SERIES)) $(addprefix --fat ,$(FAT)) $(addprefix --also ,$(ALSO)) \
   $(addprefix --chest-wall ,$(CHEST_WALL)) $(its_segment)
 labels_settings = $(SEGMENT) $(call named,$(MR)) $(labels_options) $(content_FAT) $(content_ALSO) $(content_CHEST_WALL)
-geometry_options = $(its_fit)
-geometry_settings = $(FIT_HERMITE) $(geometry_options)
+geometry_settings = $(FIT_HERMITE) $(its_fit)
 mesh_options = $(its_hexmesh) $(if $(findstring --tumour,$(its_hexmesh)),,--tumour $(TUMOUR))
 mesh_settings = $(HEXMESH) $(mesh_options) $(content_TUMOUR)
 reference_options = $(its_prone) $(its_model)
 reference_settings = $(BACKWARD) $(reference_options) $(its_content)
-supine_options = $(its_model)
-supine_settings = $(FORWARD) $(supine_options) $(its_content)
+supine_settings = $(FORWARD) $(its_model) $(its_content)
 # The plates have the distance that the case asks for, or their true positions.
 plates_for = $(if $(its_plates),$(call plates_of_truth,$1),$(STOPS))
 press = $(addprefix --at-least ,$(AT_LEAST)) $(its_compress) $(its_model)
@@ -89,13 +86,11 @@ cc_options = $(call plates_for,cc) $(press)
 cc_settings = $(COMPRESS) $(if $(its_plates),,$(STOPS)) $(press) $(its_content)
 mlo_options = $(call plates_for,mlo) $(press)
 mlo_settings = $(cc_settings)
-cc-mammogram_options = $(PROJECT_OPTIONS)
 cc-mammogram_settings = $(PROJECT) $(PROJECT_OPTIONS)
-mlo-mammogram_options = $(PROJECT_OPTIONS)
-mlo-mammogram_settings = $(PROJECT) $(PROJECT_OPTIONS)
+mlo-mammogram_settings = $(cc-mammogram_settings)
 curve_settings = $(CC2MLO)
 slopes_options = $(its_prone) $(its_model) --parameters $(its_slopes)
-slopes_settings = $(SENSITIVITY) $(slopes_options)
+slopes_settings = $(BIN)/sensitivity $(slopes_options)
 
 # Options of every program: its report and its share of the cores. Where all others wait, a stage has all (but not in a cohort).
 share = --threads $$($(PIPELINES)/threads.sh)

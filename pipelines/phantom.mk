@@ -8,11 +8,11 @@ landmarks := $(if $(no_tumour),,tumour$(comma))nipple
 CURVE := $(if $(no_tumour),,$(RUN)/curve.vtp)
 
 # $(call phantom_scan,NAME,OPTIONS,FILES): the scan RUNS/phantom/NAME.nrrd, its truth NAME-truth, and more files made with it.
-phantom_settings := $(PHANTOM) $(PRESET) $(PHANTOM_OPTIONS)
+phantom_settings := $(BIN)/phantom $(PRESET) $(PHANTOM_OPTIONS)
 define phantom_scan
-$(RUNS)/phantom/$1.nrrd $(RUNS)/phantom/$1-truth/landmarks.tsv $3 &: $(PHANTOM) \
+$(RUNS)/phantom/$1.nrrd $(RUNS)/phantom/$1-truth/landmarks.tsv $3 &: $(BIN)/phantom \
   $(call stale,$(RUNS)/phantom/.$1.settings,$(phantom_settings))
-	$$(call staged,$(RUNS)/phantom/.$1.settings,$(phantom_settings)) $(PHANTOM) $(RUNS)/phantom/$1.nrrd --preset $(PRESET) $2 --truth $(RUNS)/phantom/$1-truth $(PHANTOM_OPTIONS) \
+	$$(call staged,$(RUNS)/phantom/.$1.settings,$(phantom_settings)) $(BIN)/phantom $(RUNS)/phantom/$1.nrrd --preset $(PRESET) $2 --truth $(RUNS)/phantom/$1-truth $(PHANTOM_OPTIONS) \
 	  --report $(RUNS)/phantom/$1.json $$(alone)
 endef
 $(eval $(call phantom_scan,$(PRESET),,$(PHANTOM_TRUTH)/tumour-$(SIDE).tsv))
@@ -41,13 +41,13 @@ truth_alike = $(filter --seed=% --materials=% --coarse=%,$(subst --seed ,--seed=
 TRUTH_TABLE := $(PHANTOM_TRUTH)/$(SIDE)-compressed.tsv
 TRUTH_MESHES := $(foreach level,fine coarse,$(foreach what,$(level) $(level)-supine $(level)-cc $(level)-mlo,\
   $(TRUTH_AT)-$(what).vtkhdf))
-truth_mesh = $(PHANTOM_MESH) $(TRUTH_AT)-$1.vtkhdf --supine $(TRUTH_AT)-$1-supine.vtkhdf --level $2 \
+truth_mesh = $(BIN)/phantom-mesh $(TRUTH_AT)-$1.vtkhdf --supine $(TRUTH_AT)-$1-supine.vtkhdf --level $2 \
   --preset $(PRESET) --side $(SIDE) $(truth_alike) --report $(TRUTH_AT)-$1.json $(share)
 truth-meshes_record := $(PHANTOM_TRUTH)/.$(SIDE)-meshes.settings
-truth-meshes_settings := $(PHANTOM_MESH) $(TRUTH_COARSE) $(TRUTH_FINE) $(phantom_settings)
-$(TRUTH_AT)-coarse.vtkhdf $(TRUTH_AT)-coarse-supine.vtkhdf &: $(PHANTOM_MR) $(PHANTOM_MESH) $(call changed,truth-meshes)
+truth-meshes_settings := $(BIN)/phantom-mesh $(TRUTH_COARSE) $(TRUTH_FINE) $(phantom_settings)
+$(TRUTH_AT)-coarse.vtkhdf $(TRUTH_AT)-coarse-supine.vtkhdf &: $(PHANTOM_MR) $(BIN)/phantom-mesh $(call changed,truth-meshes)
 	$(call stage,truth-meshes) $(call truth_mesh,coarse,$(TRUTH_COARSE))
-$(TRUTH_AT)-fine.vtkhdf $(TRUTH_AT)-fine-supine.vtkhdf &: $(PHANTOM_MR) $(PHANTOM_MESH) $(TRUTH_AT)-coarse.vtkhdf
+$(TRUTH_AT)-fine.vtkhdf $(TRUTH_AT)-fine-supine.vtkhdf &: $(PHANTOM_MR) $(BIN)/phantom-mesh $(TRUTH_AT)-coarse.vtkhdf
 	$(call truth_mesh,fine,$(TRUTH_FINE))
 truth_plates_record = $(PHANTOM_TRUTH)/.$(SIDE)-$1.settings
 truth_plates_settings = $(COMPRESS) $(truth_reduction_$1) $(AT_LEAST) $(truth_edge_$1) $(phantom_settings)
@@ -61,14 +61,14 @@ $(TRUTH_AT)-fine-cc.vtkhdf $(TRUTH_AT)-fine-mlo.vtkhdf: $(TRUTH_AT)-fine-%.vtkhd
 $(RUN)/truth-cc.vtkhdf $(RUN)/truth-mlo.vtkhdf: $(RUN)/truth-%.vtkhdf: $(RUN)/reference.vtkhdf $(TRUTH_TABLE) $(COMPRESS)
 	$(call pressed,truth-$*-of-chain) $(COMPRESS) $< $@ --view $(view_$*) $(call plates_of_truth,$*) $(addprefix --at-least ,$(AT_LEAST)) \
 	  $(COMPRESS_OPTIONS) $(MECHANICS) $(SUPPORT) $(common)
-$(TRUTH_TABLE): $(PHANTOM_TRUTH)/landmarks.tsv $(TRUTH_MESHES) $(TRUTH_TABLE_TOOL)
-	$(TRUTH_TABLE_TOOL) $< $@ $(TRUTH_MESHES) $(common)
+$(TRUTH_TABLE): $(PHANTOM_TRUTH)/landmarks.tsv $(TRUTH_MESHES) $(BIN)/truth-table
+	$(BIN)/truth-table $< $@ $(TRUTH_MESHES) $(common)
 plates_of_truth = $(call same_plates,$(TRUTH_AT)-fine-$1.json) $(if $(body_slides),$(wordlist 2,3,$(truth_edge_$1)))
 same_plates = --thickness $$($(tabulate) key $1 thickness_mm) --edge-at $$($(tabulate) key $1 edge_at_mm) \
   --middle-at $$($(tabulate) key $1 middle_at_mm) --turn $$($(tabulate) key $1 turn_deg) --lean $$($(tabulate) key $1 lean_deg)
-truth-compressed_settings := $(PROBE)
+truth-compressed_settings := $(BIN)/probe
 $(RUN)/truth-compressed.tsv: $(TRUTH_TABLE) $(addprefix $(RUN)/,mesh.vtkhdf reference.vtkhdf supine.vtkhdf \
-  truth-cc.vtkhdf truth-mlo.vtkhdf) $(PROBE) $(call changed,truth-compressed)
-	$(call prints,truth-compressed,$@) $(PROBE) $(filter %.vtkhdf,$^) --truth $<
+  truth-cc.vtkhdf truth-mlo.vtkhdf) $(BIN)/probe $(call changed,truth-compressed)
+	$(call prints,truth-compressed,$@) $(BIN)/probe $(filter %.vtkhdf,$^) --truth $<
 truth: $(RUN)/truth-compressed.tsv
 	@cat $<

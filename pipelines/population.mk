@@ -21,26 +21,23 @@ population_calibration := $(call population_of,calibration)
 population_judging := $(call population_of,judging)
 population_women := $(call population_of,women)
 population_all := $(population_both) $(population_women)
-make_breast = $(MAKE) -f $(PIPELINE) RUNS=$(POPULATION_RUNS) CASE=$* SIDE=$(call cell,$*,4) $(call source_of,$*) MATERIALS=$(POPULATION_MATERIALS) \
-  ELEMENTS=$(POPULATION_ELEMENTS) TUMOUR=none $@
-$(call population_files,$(population_all),mesh): $(POPULATION_RUNS)/%/mesh.vtkhdf: FORCE
-	@+$(make_breast)
-$(call population_files,$(population_all),supine): $(POPULATION_RUNS)/%/supine.vtkhdf: FORCE
+breast = $(notdir $(@D))
+make_breast = $(MAKE) -f $(PIPELINE) RUNS=$(POPULATION_RUNS) CASE=$(breast) SIDE=$(call cell,$(breast),4) $(call source_of,$(breast)) \
+  MATERIALS=$(POPULATION_MATERIALS) ELEMENTS=$(POPULATION_ELEMENTS) TUMOUR=none $@
+$(foreach shape,mesh supine,$(call population_files,$(population_all),$(shape))): FORCE
 	@+$(make_breast)
 # A compression that ends early is a row of the table, if its report says so.
-$(call population_files,$(population_all),cc): $(POPULATION_RUNS)/%/cc.vtkhdf: FORCE
-	@+$(make_breast) || test -s $(basename $@).json
-$(call population_files,$(population_all),mlo): $(POPULATION_RUNS)/%/mlo.vtkhdf: FORCE
+$(foreach shape,cc mlo,$(call population_files,$(population_all),$(shape))): FORCE
 	@+$(make_breast) || test -s $(basename $@).json
 endif
 
-population_compare = $(POPULATION_TOOL) $(call population_files,$1,supine) --women $(PIPELINES)/invivo/women.tsv \
+population_compare = $(BIN)/population $(call population_files,$1,supine) --women $(PIPELINES)/invivo/women.tsv \
   --table $(POPULATION_RUNS)/$2-motion.tsv --summary $(POPULATION_RUNS)/$2.tsv --report $(POPULATION_RUNS)/$2.json
-population: $(call population_files,$(population_both),supine) $(POPULATION_TOOL) $(RENDER)
+population: $(call population_files,$(population_both),supine) $(BIN)/population $(RENDER)
 	$(call population_compare,$(population_both),cohort)
 	$(call population_compare,$(population_judging),judging)
 	$(RENDER) $(POPULATION_RUNS)/judging.tsv --figure motion -o $(POPULATION_RUNS)/motion.png
 	@cat $(POPULATION_RUNS)/judging.tsv
-compressed-population: $(foreach b,$(population_both),$(call population_files,$b,cc) $(call population_files,$b,mlo)) $(TABULATE)
+compressed-population: $(foreach b,$(population_both),$(call population_files,$b,cc) $(call population_files,$b,mlo)) $(BIN)/tabulate
 	@$(tabulate) compressions $(patsubst %.vtkhdf,%.json,$(filter %.vtkhdf,$^)) | tee $(POPULATION_RUNS)/compressed.tsv
 .PHONY: population compressed-population

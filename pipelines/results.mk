@@ -23,44 +23,44 @@ $(RUN)/supine-cut-fixed.vtkhdf: $(RUN)/reference-cut-fixed.vtkhdf $(FORWARD)
 # Tables come from stdout; a rename makes them complete or absent: $(call table,COMMAND).
 table = $1 > $@.part && mv $@.part $@
 SHOWN := $(addprefix $(RUN)/,mesh.vtkhdf reference.vtkhdf supine.vtkhdf)
-displacements_settings := $(PROBE) $(landmarks)
-$(RUN)/displacements.tsv: $(SHOWN) $(addprefix $(RUN)/,cc.vtkhdf mlo.vtkhdf) $(PROBE) $(call changed,displacements)
-	$(call prints,displacements,$@) $(PROBE) $(filter %.vtkhdf,$^) --landmarks $(landmarks)
+displacements_settings := $(BIN)/probe $(landmarks)
+$(RUN)/displacements.tsv: $(SHOWN) $(addprefix $(RUN)/,cc.vtkhdf mlo.vtkhdf) $(BIN)/probe $(call changed,displacements)
+	$(call prints,displacements,$@) $(BIN)/probe $(filter %.vtkhdf,$^) --landmarks $(landmarks)
 cut_settings := $(displacements_settings)
-$(RUN)/cut.tsv: $(RUN)/supine-cut-fixed.vtkhdf $(RUN)/supine.vtkhdf $(PROBE) $(call changed,cut)
-	$(call prints,cut,$@) $(PROBE) $< --base $(word 2,$^) --landmarks $(landmarks)
+$(RUN)/cut.tsv: $(RUN)/supine-cut-fixed.vtkhdf $(RUN)/supine.vtkhdf $(BIN)/probe $(call changed,cut)
+	$(call prints,cut,$@) $(BIN)/probe $< --base $(word 2,$^) --landmarks $(landmarks)
 
 # Errors against the phantom's truth (stress-free, prone, supine); a real scan has none.
 ifdef TRUTH
-truth_settings := $(PROBE) $(TRUTH)
-$(RUN)/truth.tsv: $(TRUTH) $(SHOWN) $(PROBE) $(call changed,truth)
+truth_settings := $(BIN)/probe $(TRUTH)
+$(RUN)/truth.tsv: $(TRUTH) $(SHOWN) $(BIN)/probe $(call changed,truth)
 truth-cut-fixed_settings := $(truth_settings)
-$(RUN)/truth-cut-fixed.tsv: $(TRUTH) $(RUN)/mesh.vtkhdf $(RUN)/reference-cut-fixed.vtkhdf $(RUN)/supine-cut-fixed.vtkhdf $(PROBE) \
+$(RUN)/truth-cut-fixed.tsv: $(TRUTH) $(RUN)/mesh.vtkhdf $(RUN)/reference-cut-fixed.vtkhdf $(RUN)/supine-cut-fixed.vtkhdf $(BIN)/probe \
   $(call changed,truth-cut-fixed)
 $(RUN)/truth.tsv $(RUN)/truth-cut-fixed.tsv:
-	$(call prints,$(basename $(@F)),$@) $(PROBE) $(filter %.vtkhdf,$^) --truth $(TRUTH)
+	$(call prints,$(basename $(@F)),$@) $(BIN)/probe $(filter %.vtkhdf,$^) --truth $(TRUTH)
 endif
 
 # (A breast that slides is held by springs at its cut: there a held cut would be another model.)
 $(RUN)/summary.txt: $(CHAIN_FILES) $(RUN)/displacements.tsv $(if $(slides),,$(RUN)/cut.tsv) \
   $(if $(TRUTH),$(RUN)/truth.tsv $(if $(body_slides),,$(RUN)/truth-cut-fixed.tsv)) $(FIGURES) \
-  $(TABULATE) $(PIPELINES)/advice.tsv
+  $(BIN)/tabulate $(PIPELINES)/advice.tsv
 	@$(call table,$(tabulate) summary $(RUN) $(if $(TRUTH),$(PHANTOM_MR:.nrrd=.json)))
 
 # ---- pointing at either view draws curve, band and arc in the other -----------------------------------------
 page_options := $(or $(SERIES),0) $(filter no,$(PAGE_SCAN))
 # The derivatives of the compressed shapes, for the bands of curves: of those of the chain, and between the plates of the truth.
-$(foreach v,cc mlo truth-cc truth-mlo,$(RUN)/$v-sensitivity.vtkhdf): $(RUN)/%-sensitivity.vtkhdf: $(RUN)/%.vtkhdf $(RUN)/reference.vtkhdf $(SENSITIVITY)
-	$(call staged,$(RUN)/.$*-sensitivity.settings,$(SENSITIVITY) $(PRONE) $(MECHANICS) $(SUPPORT),$(if $(filter cc mlo,$*),--of $< --spared $@)) \
-	  $(SENSITIVITY) $(RUN)/reference.vtkhdf $< $@ $(PRONE) $(MECHANICS) $(SUPPORT) --table $(basename $@).tsv $(common)
+$(foreach v,cc mlo truth-cc truth-mlo,$(RUN)/$v-sensitivity.vtkhdf): $(RUN)/%-sensitivity.vtkhdf: $(RUN)/%.vtkhdf $(RUN)/reference.vtkhdf $(BIN)/sensitivity
+	$(call staged,$(RUN)/.$*-sensitivity.settings,$(BIN)/sensitivity $(reference_options),$(if $(filter cc mlo,$*),--of $< --spared $@)) \
+	  $(BIN)/sensitivity $(RUN)/reference.vtkhdf $< $@ $(reference_options) --table $(basename $@).tsv $(common)
 # Where one of the compressions has no derivatives (augmented Lagrangian, an unstable equilibrium), the page shows curves without bands.
 both_views := $(addprefix $(RUN)/,cc.vtkhdf mlo.vtkhdf)
 derivatives := $(both_views:%.vtkhdf=%-sensitivity.vtkhdf)
 page_states = $$(if ls $(derivatives) > /dev/null 2>&1; then echo $(derivatives); else echo $(both_views); fi)
-of_both_views = $(call staged,$(call record_file,$1),$($1_settings),--of '$(both_views)')
-lookup_settings := $(MATCH_LOOKUP)
-$(RUN)/lookup.h5: $(both_views) $(derivatives) $(MATCH_LOOKUP) $(call changed,lookup)
-	$(call of_both_views,lookup) $(MATCH_LOOKUP) $(page_states) $@ --both-ways --pitch 1 $(common)
+of_both_views = $(call named_stage,$1,--of '$(both_views)')
+lookup_settings := $(BIN)/match-lookup
+$(RUN)/lookup.h5: $(both_views) $(derivatives) $(BIN)/match-lookup $(call changed,lookup)
+	$(call of_both_views,lookup) $(BIN)/match-lookup $(page_states) $@ --both-ways --pitch 1 $(common)
 # The patient's own mammograms as they are hung, and where the simulated views lie in them. cc2mlo asks for some point.
 ifneq ($(MAMMOGRAMS),)
 mammograms := $(subst $(comma), ,$(MAMMOGRAMS))
@@ -72,26 +72,26 @@ $(of_patient) &: $(both_views) $(mammograms) $(CC2MLO) $(call changed,patient)
 endif
 # The page is also made of what there is when the plates do not hold the breast: it says so. Animated pictures that `states` has made are
 # shown; as prerequisites their equilibria would be solved again, so that the page records them and their dates instead.
-shown_states = $(foreach file,$(wildcard $(addprefix $(F)/,supine-states.png cc-states.png mlo-states.png)),$(file) $(shell stat -c %Y $(file)))
-page_settings = $(TABULATE) $(call named,$(MR)) $(page_options) $(of_patient) $(shown_states)
-$(RUN)/page.html: $(RUN)/lookup.h5 $(addprefix $(RUN)/,cc.vti mlo.vti labels.vtkhdf mesh.vtkhdf) $(of_patient) $(MR_FILES) $(TABULATE) $(call changed,page)
+dated = $(foreach file,$(wildcard $1),$(file) $(shell stat -c %Y $(file)))
+page_settings = $(BIN)/tabulate $(call named,$(MR)) $(page_options) $(of_patient) $(call dated,$(call pictures,supine-states cc-states mlo-states))
+$(RUN)/page.html: $(RUN)/lookup.h5 $(addprefix $(RUN)/,cc.vti mlo.vti labels.vtkhdf mesh.vtkhdf) $(of_patient) $(MR_FILES) $(BIN)/tabulate $(call changed,page)
 	@$(if $(of_patient),,rm -f $(addprefix $(RUN)/patient,.json .vtp .tsv -cc.png -mlo.png))
 	$(call prints,page,$@) $(tabulate) page $(RUN) $(MR) $(page_options)
 page: $(RUN)/page.html
 	$(gripped)
 
 # ---- 3D Slicer: images, labels, shapes, displacement fields, points and scene.mrml, which opens them ---------
-slicer_settings := $(EXPORT_SLICER) $(MR) $(SLICER_OPTIONS)
+slicer_settings := $(BIN)/export-slicer $(MR) $(SLICER_OPTIONS)
 $(RUN)/slicer/scene.mrml: $(addprefix $(RUN)/,labels.vtkhdf mesh.vtkhdf reference.vtkhdf supine.vtkhdf cc.vtkhdf mlo.vtkhdf) $(CURVE) \
-  $(EXPORT_SLICER) $(call changed,slicer)
-	$(call prints,slicer,$(RUN)/slicer-fields.tsv) $(EXPORT_SLICER) $(RUN) $(RUN)/slicer --scan $(MR) $(addprefix --series ,$(SERIES)) \
+  $(BIN)/export-slicer $(call changed,slicer)
+	$(call prints,slicer,$(RUN)/slicer-fields.tsv) $(BIN)/export-slicer $(RUN) $(RUN)/slicer --scan $(MR) $(addprefix --series ,$(SERIES)) \
 	  $(SLICER_OPTIONS) --report $(RUN)/slicer.json $(share)
 	@cat $(RUN)/slicer-fields.tsv
 slicer: $(RUN)/slicer/scene.mrml
 
 # ---- expected values, and the report ------------------------------------------------------------------------
 verify: $(RUN)/verify.tsv
-$(RUN)/verify.tsv: $(EXPECTED) $(TABULATE) $(RUN)/summary.txt $(TABLE_FILES)
+$(RUN)/verify.tsv: $(EXPECTED) $(BIN)/tabulate $(RUN)/summary.txt $(TABLE_FILES)
 	$(if $(EXPECTED),,$(error verify: there are no expected values of the case $(CASE); name a file of them with EXPECTED=FILE.tsv))
 	@$(call table,$(tabulate) verify $(EXPECTED) $(RUN))
 	@cat $@
@@ -103,17 +103,16 @@ all: $(FIGURES) tables $(if $(EXPECTED),verify) report
 .PHONY: page slicer verify report all
 # Results of the slow targets are embedded with their dates. As prerequisites they would be solved again whenever a program is
 # newer; therefore the page records these files and their dates instead.
-REPORT_EXTRAS = $(wildcard $(LEAVEOUT)/*.tsv $(RUN)/cost/*.tsv $(RUN)/cost/*.png $(RUN)/budget/*.tsv $(RUN)/budget/*.png \
-  $(RUNS)/stability/*.tsv $(RUNS)/compare/all.tsv $(RUNS)/compare/pressed.tsv $(addprefix $(RUNS)/population/,judging.tsv motion.png))
-report_settings = $(TABULATE) $(foreach file,$(REPORT_EXTRAS),$(file) $(shell stat -c %Y $(file)))
+report_settings = $(BIN)/tabulate $(call dated,$(addprefix $(RUN)/,leaveout/*.tsv cost/*.tsv cost/*.png budget/*.tsv budget/*.png) \
+  $(addprefix $(RUNS)/,stability/*.tsv compare/all.tsv compare/pressed.tsv population/judging.tsv population/motion.png))
 report_record = $(RUN)/report.settings
 # The motion of the breast compared with living women, if the breast slides on its chest wall.
-$(RUN)/population.tsv: $(RUN)/supine.vtkhdf $(PIPELINES)/invivo/women.tsv $(POPULATION_TOOL)
-	$(POPULATION_TOOL) $< --women $(word 2,$^) --table $(RUN)/motion.tsv --summary $@ --report $(RUN)/population.json --quiet
+$(RUN)/population.tsv: $(RUN)/supine.vtkhdf $(PIPELINES)/invivo/women.tsv $(BIN)/population
+	$(BIN)/population $< --women $(word 2,$^) --table $(RUN)/motion.tsv --summary $@ --report $(RUN)/population.json --quiet
 $(F)/motion.png: $(RUN)/population.tsv $(RENDER)
 	$(call plot,motion)
 $(RUN)/report.html: $(RUN)/summary.txt $(TABLE_FILES) $(if $(slides),$(RUN)/population.tsv $(F)/motion.png) $(F)/cc-points.png $(F)/mlo-curves.png \
-  $(if $(EXPECTED),$(RUN)/verify.tsv) $(TABULATE) $(addprefix $(PIPELINES)/,limits.txt advice.tsv) $(call changed,report)
+  $(if $(EXPECTED),$(RUN)/verify.tsv) $(BIN)/tabulate $(addprefix $(PIPELINES)/,limits.txt advice.tsv) $(call changed,report)
 	$(call prints,report,$@) $(tabulate) report $(RUN) $(RUNS)
 	@echo "$@"
 $(RUN)/report.pdf: $(RUN)/report.html

@@ -23,7 +23,7 @@ include $(if $(CASE_FILE),$(call said,$(shell $(BIN)/cases case-file $(PIPELINES
 
 # The settings and their defaults. Another value is given on the command line (make -f Makefile.pipeline MATERIALS=wellman), in a case
 # file, or in the environment; the first of these counts. help.txt says what each does, settings.tsv what it accepts; those of its
-# settings that have no default here are empty.
+# settings that have no default here are empty, but for those of the targets of the source tree (tests/*.mk).
 
 # ---- the case ----------------------------------------------------------------------------------------------
 PRESET ?= $(if $(PAPER)$(filter $(goals_of_paper),$(goals)),paper,average)
@@ -78,7 +78,7 @@ POINTS ?= 4
 # Equilibria of each way that `states` shows.
 STATES ?= 13
 
-# ---- programs of the stages and their further options ------------------------------------------------------
+# ---- programs of the stages and their further options; all other programs are those in BIN -----------------
 # As printed in the paper: cuboid, skin as a layer of elements, plain invariants, free cut, no gravity in compression.
 PRINTED_HEXMESH = --template cuboid --elements $(ELEMENTS) --skin-as layer
 PRINTED_MECHANICS = --materials $(MATERIALS) --invariants plain --element q1p0
@@ -94,23 +94,7 @@ FORWARD ?= $(BIN)/forward
 COMPRESS ?= $(BIN)/compress
 PROJECT ?= $(BIN)/project-mammogram
 CC2MLO ?= $(BIN)/cc2mlo
-PHANTOM ?= $(BIN)/phantom
-PHANTOM_MESH ?= $(BIN)/phantom-mesh
-TRUTH_TABLE_TOOL ?= $(BIN)/truth-table
-CALIBRATE ?= $(BIN)/calibrate
-CALIBRATE_SOFTNESS ?= $(BIN)/calibrate-softness
-IDENTIFY ?= $(BIN)/identify
-PROBE ?= $(BIN)/probe
 RENDER ?= $(BIN)/render
-SENSITIVITY ?= $(BIN)/sensitivity
-DIFFERENCE ?= $(BIN)/difference
-MATCH_LOOKUP ?= $(BIN)/match-lookup
-EXPORT_DECK ?= $(BIN)/export-deck
-EVALUATE ?= $(BIN)/evaluate
-EXPORT_SLICER ?= $(BIN)/export-slicer
-POPULATION_TOOL ?= $(BIN)/population
-CASES ?= $(BIN)/cases
-TABULATE ?= $(BIN)/tabulate
 
 # ---- results, studies, truth -------------------------------------------------------------------------------
 # A page is easily forwarded. It therefore contains voxels of a patient's scan only with PAGE_SCAN=yes; a phantom may be shown.
@@ -121,25 +105,13 @@ CHROMIUM ?= $(shell command -v chromium || command -v chromium-browser || comman
 COST_POINTS ?= $(cost_variants)
 COST_FINEST ?= q2p1-dome-24
 FINDINGS_FINEST ?= 10
-BUDGET_FINER ?= 20
 LEAVEOUT_MM ?= 1
 LEAVEOUT_VARIANTS ?= $(leaveout_variants)
+BUDGET_FINER ?= 20
 TRUTH_COARSE ?= $(if $(body_slides),0.5,1)
 TRUTH_FINE ?= $(if $(body_slides),0.75,2)
-BAND_SAMPLES ?= 220
-BAND_DRAWS ?= 400
-BAND_PLACES ?= 150
-STABILITY_LIMIT ?= 20000
-COMPARE_ELEMENTS ?= 10
-COMPARE_SCENES ?= block-8-poly-1000-C3D8I block-8-poly-1000-C3D8 block-8-mr-100-C3D8I \
-  block-8-mr-1000-C3D8I block-4-poly-1000-C3D20R breast-1000-C3D8I block-16-poly-1000-C3D8I
-COMPARE_PRESSED ?= pressed-8-10000-C3D8I-60-contact pressed-8-10000-C3D8I-50-prescribed \
-  pressed-16-10000-C3D8I-60-contact
 POPULATION_ELEMENTS ?= 10
 POPULATION_MATERIALS ?= invivo
-FUZZ_MINUTES ?= 240
-FUZZ_INPUTS ?= 2000
-FAULT_ALLOCATIONS ?= 200
 
 # ---- cohorts -----------------------------------------------------------------------------------------------
 CLUSTER ?= local

@@ -20,7 +20,7 @@ $(if $(study_file),$(if $(wildcard $(study_file)),,$(error STUDY: '$(STUDY)' is 
 tables_of_studies := $(join $(studies:%=%=),$(own_studies)) scaled-as-printed=$(PIPELINES)/studies/scaled.tsv@findings/as-printed \
   $(addprefix $(study_name)=,$(study_file))
 study_rules := $(RUNS)/.make/$(notdir $(RUN))-studies.mk
-$(call said,$(shell $(CASES) studies $(study_rules) $(PIPELINE) $(RUN) 'supine $(if $(no_tumour),cc mlo,curve)' '$(tabulate) place' \
+$(call said,$(shell $(BIN)/cases studies $(study_rules) $(PIPELINE) $(RUN) 'supine $(if $(no_tumour),cc mlo,curve)' '$(tabulate) place' \
   $(foreach c,$(study_columns),'@$c=$(strip $(its_$c))') '{tumour={tumour}' $(foreach p,$(placeholders),'{$p=$(strip $($p))') \
   $(tables_of_studies) --quiet 2>&1))
 include $(study_rules)
@@ -40,20 +40,20 @@ LEAVEOUT_PARTS := $(filter no-%,$(leaveout_variants))
 LEAVEOUT_QUESTIONS := surgery matching
 leaveout: $(LEAVEOUT)/table.tsv $(LEAVEOUT)/recommendation.tsv
 	@cat $^
-$(LEAVEOUT)/table.tsv: $(call results,leaveout,$(LEAVEOUT_VARIANTS),supine curve) $(RUN)/curve.vtp $(RUN)/supine.vtkhdf $(TABULATE)
+$(LEAVEOUT)/table.tsv: $(call results,leaveout,$(LEAVEOUT_VARIANTS),supine curve) $(RUN)/curve.vtp $(RUN)/supine.vtkhdf $(BIN)/tabulate
 	@mkdir -p $(@D)
 	$(call table,$(tabulate) leaveout $(RUN) $(LEAVEOUT_VARIANTS))
 # The parts a question can do without are known when the table is: this makefile once more, from the case's labels and geometry.
 least := $(LEAVEOUT_QUESTIONS:%=$(call study_dir,leaveout)/least-%/curve.tsv)
 least_record = $(LEAVEOUT)/.least-$1.settings
-$(least): $(call study_dir,leaveout)/least-%/curve.tsv: $(LEAVEOUT)/table.tsv $(TABULATE) $$(call stale,$$(call least_record,$$*),$(LEAVEOUT_MM))
+$(least): $(call study_dir,leaveout)/least-%/curve.tsv: $(LEAVEOUT)/table.tsv $(BIN)/tabulate $$(call stale,$$(call least_record,$$*),$(LEAVEOUT_MM))
 	@rm -f $(call least_record,$*)
 	mkdir -p $(@D) && cp -p $(addprefix $(RUN)/,labels.vtkhdf points.vtp labels.json geometry.vtkhdf geometry.json .labels.settings .geometry.settings) $(@D)
 	+$(MAKE) -f $(PIPELINE) RUN=$(@D) MR=$(MR) $(addprefix TUMOUR=,$(TUMOUR)) MATERIALS=$(or $(prior_set),$(MATERIALS)) \
 	  LEAVE_OUT="$$($(tabulate) least $(LEAVEOUT)/table.tsv $* $(LEAVEOUT_MM) $(LEAVEOUT_PARTS))" chain
 	@echo $(LEAVEOUT_MM) > $(call least_record,$*)
 	@touch $@
-$(LEAVEOUT)/recommendation.tsv: $(least) $(TABULATE)
+$(LEAVEOUT)/recommendation.tsv: $(least) $(BIN)/tabulate
 	$(call table,$(tabulate) recommendation $(RUN) $(LEAVEOUT_MM) $(LEAVEOUT_PARTS))
 
 # ---- what the chest wall's own uncertainty does ------------------------------------------------------------
@@ -62,13 +62,13 @@ WALL_SHIFTS := $(RUN)/wall
 WALL_VARIANTS := $(wall_variants)
 wall-sensitivity: $(WALL_SHIFTS)/table.tsv
 $(WALL_SHIFTS)/table.tsv: $(call results,wall,$(WALL_VARIANTS),supine curve) $(RUN)/supine.vtkhdf $(RUN)/curve.vtp \
-  $(TABULATE)
+  $(BIN)/tabulate
 	@mkdir -p $(@D)
 	$(call table,$(tabulate) wall $(RUN) $(WALL_VARIANTS))
 	@cat $@
 # Derivatives by stiffness, plates and chest wall in one file a view, and the band they give the tumour's curve.
-$(RUN)/cc-band.vtkhdf $(RUN)/mlo-band.vtkhdf: $(RUN)/%-band.vtkhdf: $(RUN)/%-sensitivity.vtkhdf $(call results,wall,$(WALL_VARIANTS),curve) $(DIFFERENCE)
-	$(DIFFERENCE) $< $(foreach v,$(WALL_VARIANTS),$(call study_dir,wall/$v)/$*.vtkhdf) $@ --parameter chest_wall $(common)
+$(RUN)/cc-band.vtkhdf $(RUN)/mlo-band.vtkhdf: $(RUN)/%-band.vtkhdf: $(RUN)/%-sensitivity.vtkhdf $(call results,wall,$(WALL_VARIANTS),curve) $(BIN)/difference
+	$(BIN)/difference $< $(foreach v,$(WALL_VARIANTS),$(call study_dir,wall/$v)/$*.vtkhdf) $@ --parameter chest_wall $(common)
 $(RUN)/band.tsv: $(RUN)/cc-band.vtkhdf $(RUN)/mlo-band.vtkhdf $(CC2MLO)
 	$(CC2MLO) $(wordlist 1,2,$^) $(RUN)/band.vtp --landmark tumour --band --table $@ --curve-table $(RUN)/band-curve.tsv \
 	  $(common)
@@ -80,7 +80,7 @@ band: $(RUN)/band.tsv
 COST := $(RUN)/cost
 cost: $(COST)/cost.tsv $(COST)/cost.png
 	@cat $<
-$(COST)/cost.tsv: $(call results,cost,$(sort $(COST_POINTS) $(COST_FINEST)),supine) $(TABULATE)
+$(COST)/cost.tsv: $(call results,cost,$(sort $(COST_POINTS) $(COST_FINEST)),supine) $(BIN)/tabulate
 	@mkdir -p $(@D)
 	$(call table,$(tabulate) cost $(call study_dir,cost) $(COST_FINEST) $(COST_POINTS))
 $(COST)/cost.png: $(COST)/cost.tsv $(RENDER)

@@ -32,12 +32,12 @@ of_findings := $(RUN)/slopes.tsv $(call results,findings,$(findings_variants),sl
 tables: $(TABLE_FILES)
 	$(if $(planning),,@$(if $(TABLE_FILES),$(tabulate) show $(RUN),:))
 tables_settings := $(MATERIAL_TABLE) $(content_MATERIALS)
-$(TABLE_FILES) &: $(sort $(foreach t,$(TABLE_NAMES),$(of_$t))) $(wildcard $(PIPELINES)/paper/*.tsv) $(TABULATE) $(call changed,tables)
+$(TABLE_FILES) &: $(sort $(foreach t,$(TABLE_NAMES),$(of_$t))) $(wildcard $(PIPELINES)/paper/*.tsv) $(BIN)/tabulate $(call changed,tables)
 	$(call stage,tables) $(tabulate) tables $(RUN) $(MATERIAL_TABLE) $(TABLE_NAMES)
 # One table alone, after the solves that it needs: table8 is judged from Tables III to VI.
 first_table8 := table3 table4 table5 table6
 single := table2 table3 table4 table5 table6 table7 table8 findings
-$(single): $$(of_$$@) $(TABULATE)
+$(single): $$(of_$$@) $(BIN)/tabulate
 	$(tabulate) tables $(RUN) $(MATERIAL_TABLE) $(filter $(foreach t,$(first_$@) $@,$t $t-as-printed),$(TABLE_NAMES))
 	@cat $(TABLES)/$@.tsv
 .PHONY: tables $(single)

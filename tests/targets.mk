@@ -13,6 +13,9 @@ check:
 page-check: $(RUN)/page.html $(CC2MLO)
 	tests/page/check.sh $(BIN) $(RUN) $(RUN)
 
+FUZZ_MINUTES ?= 240
+FUZZ_INPUTS ?= 2000
+FAULT_ALLOCATIONS ?= 200
 fuzz:
 	tests/fuzz/run.sh $(or $(MINUTES),5)
 
@@ -66,6 +69,7 @@ clean-root: package
 # Of gravity (tests/extreme/table/cases.cpp), a row for each direction of each case; of compression, with the case's stress-free
 # mesh at the end when it has been made. A case that stops short (code 3) is a row of the table. Then one page of their ends.
 STABILITY := $(RUNS)/stability
+STABILITY_LIMIT ?= 20000
 stability-mechanics: $(STABILITY)/mechanics.tsv
 	@cut -f1-11 $<
 stability-contact: $(STABILITY)/contact.tsv
@@ -83,7 +87,7 @@ $(STABILITY)/contact.tsv: $(COMPRESS) tests/fixtures/contact_cases.hpp tests/ben
 	cmake --build $(BUILD) --target stability_contact >> $(STABILITY)/.build.log
 	$(BIN)/stability_contact $(wildcard $(RUN)/reference.vtkhdf) > $@.part || [ $$? -eq 3 ]
 	@mv $@.part $@
-$(STABILITY)/summary.tsv: $(STABILITY)/mechanics.tsv $(STABILITY)/contact.tsv $(TABULATE)
+$(STABILITY)/summary.tsv: $(STABILITY)/mechanics.tsv $(STABILITY)/contact.tsv $(BIN)/tabulate
 	$(call table,$(tabulate) stability $(STABILITY)/mechanics.tsv $(STABILITY)/contact.tsv)
 
 # $(call bench,NAME): builds the benchmark program NAME, one recipe at a time.

@@ -29,7 +29,7 @@ sides-table: sides
 
 # Of docs/validation/sliding.md: the cohort between plates, and how the compressed shape depends on the mesh, on friction and on the
 # length of the steps (tests/bench/plates.tsv), of the preset average by 50 %.
-compression-tables: $(TABULATE)
+compression-tables: $(BIN)/tabulate
 	@+$(MAKE) -f $(PIPELINE) REDUCTION=50 compressed-population
 	cp $(POPULATION_RUNS)/compressed.tsv $(TABLES_OF_PAGE)/compression-cohort.tsv
 	@+$(MAKE) -f $(PIPELINE) REDUCTION=50 PRESET=average STUDY=tests/bench/plates.tsv study
@@ -54,7 +54,7 @@ made_by = flock $(TABLES_OF_PAGE) $(tabulate) made $@ $1
 cost-table: cost
 	cp $(COST)/cost.tsv $(TABLES_OF_PAGE)/cost.tsv
 	$(tabulate) made $(TABLES_OF_PAGE)/cost.tsv $(call study_dir,cost)/$(COST_FINEST)/supine.json
-errors-page: $(TABULATE) $(RENDER)
+errors-page: $(BIN)/tabulate $(RENDER)
 	for name in error-sources methods-cost; do \
 	  $(tabulate) $$name $(TABLES_OF_PAGE) > $(TABLES_OF_PAGE)/$$name.tsv.part; \
 	  mv $(TABLES_OF_PAGE)/$$name.tsv.part $(TABLES_OF_PAGE)/$$name.tsv; \
@@ -67,19 +67,19 @@ gallery: chain
 .PHONY: gallery
 
 # How the compressed shapes converge with the mesh (studies/convergence.tsv).
-$(TABLES_OF_PAGE)/compression-convergence.tsv: $(call results,convergence,$(convergence_variants),cc mlo) $(TABULATE)
+$(TABLES_OF_PAGE)/compression-convergence.tsv: $(call results,convergence,$(convergence_variants),cc mlo) $(BIN)/tabulate
 	@mkdir -p $(@D)
 	$(call table,$(tabulate) convergence $(call study_dir,convergence) $(convergence_variants))
 	$(call made_by,$<)
 
 # The displacements to which the preset was fitted and those of its truth, with those of the chain as solved and as printed.
-$(TABLES_OF_PAGE)/calibration.tsv: $(RUN)/displacements.tsv $(base_printed) $(PHANTOM_MR) $(TABULATE)
+$(TABLES_OF_PAGE)/calibration.tsv: $(RUN)/displacements.tsv $(base_printed) $(PHANTOM_MR) $(BIN)/tabulate
 	@mkdir -p $(@D)
 	$(call table,$(tabulate) calibration $(RUN) $(PHANTOM_MR:.nrrd=.json) $(SIDE))
 	$(call made_by,$(RUN)/supine.json)
 
 # Errors against the truth, as in the summary.
-$(TABLES_OF_PAGE)/truth.tsv: $(RUN)/truth.tsv $(TABULATE)
+$(TABLES_OF_PAGE)/truth.tsv: $(RUN)/truth.tsv $(BIN)/tabulate
 	@mkdir -p $(@D)
 	$(call table,$(tabulate) truth $<)
 	$(call made_by,$(RUN)/supine.json)

@@ -7,8 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from .errors import BreastError
-from .inflate import inflated
-from .volume import Volume, checked_size, detached_data, exact_bytes, made_volume, unit_mm
+from .volume import Volume, checked_size, detached_data, exact_bytes, inflated, made_volume, unit_mm
 
 _TYPES = {"MET_CHAR": "i1", "MET_UCHAR": "u1", "MET_SHORT": "i2", "MET_USHORT": "u2", "MET_INT": "i4", "MET_UINT": "u4",
           "MET_LONG": "i4", "MET_ULONG": "u4", "MET_LONG_LONG": "i8", "MET_ULONG_LONG": "u8", "MET_FLOAT": "f4",

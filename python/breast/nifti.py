@@ -7,8 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from .errors import BreastError
-from .inflate import inflated
-from .volume import Volume, checked_size, exact_bytes, made_volume
+from .volume import Volume, checked_size, exact_bytes, inflated, made_volume
 
 _TYPES = {2: "u1", 256: "i1", 4: "i2", 512: "u2", 8: "i4", 768: "u4", 16: "f4", 64: "f8", 1024: "i8", 1280: "u8"}
 _UNIT_MM = {1: 1e3, 3: 1e-3}

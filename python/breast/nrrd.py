@@ -9,9 +9,8 @@ import numpy as np
 
 from .errors import BreastError
 from .field import Field
-from .inflate import inflated
 from .segmentation import Segmentation, made_segmentation
-from .volume import Volume, checked_size, detached_data, exact_bytes, made_volume, unit_mm
+from .volume import Volume, checked_size, detached_data, exact_bytes, inflated, made_volume, unit_mm
 
 _TYPES = {"i1": "signed char,int8,int8_t", "u1": "uchar,unsigned char,uint8,uint8_t",
           "i2": "short,short int,signed short,signed short int,int16,int16_t",

@@ -18,10 +18,9 @@ from .hdf5 import file_schema
 from .labels import Labels
 from .loading import load, load_scan
 from .lookup import Lookup
-from .mammogram import Mammogram, read_mammogram
+from .mammogram import read_mammogram
 from .reports import read_report
 from .state import State
-from .state_file import read_state
 from .tables import read_table
 from .transport import Transported, transported
 from .volume import Volume

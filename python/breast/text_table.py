@@ -74,6 +74,8 @@ def parse_table(text: str, name: str) -> TextTable:
         rows.append({column: "" if cell == "-" else cell for column, cell in zip(columns, cells)})
     if not columns:
         raise BreastError("no header line", name)
+    if len(set(columns)) != len(columns):
+        raise BreastError("has two columns of one name", name)
     return TextTable(name, columns, rows)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import zlib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -86,6 +87,23 @@ def checked_size(file: Path, size: list[int]) -> int:
     if voxels > MOST_VOXELS:
         raise BreastError(f"{voxels} voxels, must be at most {MOST_VOXELS}", file, "crop the scan")
     return voxels
+
+
+def inflated(file: Path, content: bytes, most: int, whole: bool = True) -> bytes:
+    """The first `most` bytes of what a gzip or zlib stream holds.
+
+    Raises BreastError when the stream is damaged; with `whole` also when it is cut off, its checksum included, or holds more.
+    """
+    stream = zlib.decompressobj(wbits=zlib.MAX_WBITS | 32)
+    try:
+        data = stream.decompress(content, most)
+        if whole and not stream.eof:
+            more = stream.decompress(stream.unconsumed_tail, 1)  # reads the checksum behind the last byte
+            if more or not stream.eof:
+                raise BreastError("its compressed voxels are cut off, or more than the header announces", file)
+    except zlib.error as error:
+        raise BreastError(f"its compressed voxels are damaged ({error})", file) from None
+    return data
 
 
 def exact_bytes(file: Path, content: bytes, needed: int) -> bytes:

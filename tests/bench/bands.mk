@@ -2,6 +2,10 @@
 # The matching between views, compared with the phantom's truth (made by the target `truth`, which takes many minutes), and checks of its
 # bands with benchmark programs that are not installed.
 
+BAND_SAMPLES ?= 220
+BAND_DRAWS ?= 400
+BAND_PLACES ?= 150
+
 # If the material set contains uncertainties, they replace the priors of softness and supports.
 band_set = $(if $(filter %=uncertainty,$(call rows_in,$(MATERIAL_TABLE))),$(MATERIALS))
 # matching.tsv: the chain from the MR; matching-true-mesh.tsv: the true body on as many elements as the chain's.
@@ -31,8 +35,8 @@ band-check: $(RUN)/band-samples.tsv
 # (band-nominal), and with its points displaced along the derivatives of the true body by parameters drawn from the priors
 # (band-drawn, with BAND_DRAWS draws).
 TRUE_SENSITIVITIES := $(foreach view,cc mlo,$(TRUTH_AT)-coarse-$(view)-sensitivity.vtkhdf)
-$(TRUE_SENSITIVITIES): %-sensitivity.vtkhdf: %.vtkhdf $(TRUTH_AT)-coarse.vtkhdf $(SENSITIVITY)
-	$(SENSITIVITY) $(TRUTH_AT)-coarse.vtkhdf $< $@ --posture prone --table $(basename $@).tsv $(common)
+$(TRUE_SENSITIVITIES): %-sensitivity.vtkhdf: %.vtkhdf $(TRUTH_AT)-coarse.vtkhdf $(BIN)/sensitivity
+	$(BIN)/sensitivity $(TRUTH_AT)-coarse.vtkhdf $< $@ --posture prone --table $(basename $@).tsv $(common)
 band_bodies := $(RUN)/truth-cc-sensitivity.vtkhdf $(RUN)/truth-mlo-sensitivity.vtkhdf $(TRUE_SENSITIVITIES)
 # $(call band_rows,COUNT,SPREAD)
 band_rows = $(BIN)/band_truth $(band_bodies) 1 $1 $(BAND_PLACES) $2 $(band_set)

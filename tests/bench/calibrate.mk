@@ -4,14 +4,14 @@
 # The preset `paper` is fitted to the displacements in Tables III and IV of the paper. The fit assumes that the chain displaces the
 # nipple 1.28 times and the tumour 1.39 times as far as the phantom does; these factors were measured with PAPER=1 on a phantom
 # close to the fitted one. The target prints the values that are in libbreast/phantom/parameters.cpp.
-calibrate: $(CALIBRATE)
-	$(CALIBRATE) --preset paper --gain 1.28,1.39 --evaluations 24 $(share)
+calibrate: $(BIN)/calibrate
+	$(BIN)/calibrate --preset paper --gain 1.28,1.39 --evaluations 24 $(share)
 
 # Weights of the prior for women's shapes. Gravity hardly sees the linear constants: they are expected where the small-strain
 # stiffness measured in vivo begins (Mira 2018: a shear modulus of 80 Pa, 7 % of that of Table II). The quadratic ones are what plates see, and are
 # held near the softest with which all breasts of the cohort stand with a margin.
-calibrate-invivo-borders: $(call population_files,$(population_women),mesh) $(CALIBRATE_SOFTNESS)
-	$(CALIBRATE_SOFTNESS) $(call population_files,$(population_women),mesh) --women $(PIPELINES)/invivo/women.tsv \
+calibrate-invivo-borders: $(call population_files,$(population_women),mesh) $(BIN)/calibrate-softness
+	$(BIN)/calibrate-softness $(call population_files,$(population_women),mesh) --women $(PIPELINES)/invivo/women.tsv \
 	  --set $(POPULATION_RUNS)/invivo-borders.tsv --report $(POPULATION_RUNS)/calibration-invivo-borders.json --expected 7$(comma)1.1$(comma)700 \
 	  --law-ln-sd 0.2 --expected-ln-sd 0.7 --wall slide:0.002$(comma)L=20 \
 	  --cut spring:0.001$(comma)medial=0.1$(comma)superior=0.015$(comma)L=25 --corner-bulk 20000 $(share)
@@ -28,7 +28,7 @@ $(pressed): FORCE
 endif
 # $(call calibrate_set,NAME,OPTIONS)
 define calibrate_set
-	$(CALIBRATE_SOFTNESS) $(call population_files,$(population_calibration),mesh) --pressed $(pressed) \
+	$(BIN)/calibrate-softness $(call population_files,$(population_calibration),mesh) --pressed $(pressed) \
 	  --women $(PIPELINES)/invivo/women.tsv --set $(POPULATION_RUNS)/$1.tsv --report $(POPULATION_RUNS)/calibration-$1.json $2 $(share)
 	@{ echo '# Calibrated to the motion of living women (pipelines/invivo/women.tsv) and a paddle pressure of 10 kPa by'; \
 	  echo '# make calibrate-$1 on: $(population_calibration). Table II of Pathmanathan et al. 2008, scaled.'; \
@@ -36,7 +36,7 @@ define calibrate_set
 	@mv $(PIPELINES)/materials/$1.tsv.part $(PIPELINES)/materials/$1.tsv
 	@cat $(PIPELINES)/materials/$1.tsv
 endef
-calibrate-invivo calibrate-invivo-sternum: $(call population_files,$(population_calibration),mesh) $(pressed) $(CALIBRATE_SOFTNESS)
+calibrate-invivo calibrate-invivo-sternum: $(call population_files,$(population_calibration),mesh) $(pressed) $(BIN)/calibrate-softness
 calibrate-invivo:
 	$(call calibrate_set,invivo,)
 # The cut is attached to the sternum and carries the weight of the tissue beyond. The centre of the prior of the attachment: skin of

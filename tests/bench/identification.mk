@@ -38,7 +38,7 @@ $(identification_costs:%=$(IDENTIFICATION_RUNS)/cost-%.tsv): $(IDENTIFICATION_RU
 	@mv $@.part $@
 # $(call identification_table,NAME,PARTS): docs/tables/NAME.tsv.
 define identification_table
-docs/tables/$1.tsv: $(2:%=$(IDENTIFICATION_RUNS)/%.tsv) $(TABULATE)
+docs/tables/$1.tsv: $(2:%=$(IDENTIFICATION_RUNS)/%.tsv) $(BIN)/tabulate
 	$$(call table,$$(tabulate) identification $$(filter %.tsv,$$^))
 	@$$(tabulate) made $$@ $$<
 endef

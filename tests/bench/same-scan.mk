@@ -8,7 +8,7 @@ same-scan:
 	cmake --build $(BUILD) --target changed_scan
 	tests/bench/changed-scans.sh $(changed_tool) $(COHORT) $(CHANGED)
 	+-$(MAKE) -f $(PIPELINE) COHORT=$(CHANGED) RUNS=$(RUNS) sides
-	tests/bench/changed-walls.sh $(changed_tool) $(EVALUATE) $(RUNS)/cohort-changed
+	tests/bench/changed-walls.sh $(changed_tool) $(BIN)/evaluate $(RUNS)/cohort-changed
 	@$(tabulate) same-scan $(RUNS)/cohort-changed
 	@$(tabulate) flags $(RUNS)/cohort-changed
 same-scan-table: same-scan

@@ -237,7 +237,7 @@ class Variants(unittest.TestCase):
                      "$V/mesh.json: $(RUN)/labels.vtkhdf $(HEXMESH) $(MADE_TUMOUR) $(RUN)/mesh.vtkhdf $(RUN)/studies/own/soft/supine.json "
                      "$$(call changed_in,$$(@D),mesh)",
                      "$(RUN)/studies/own.tsv: $(RUN)/studies/own/soft/supine.json $(RUN)/studies/own/fine/reference.json "
-                     "$(RUN)/studies/own/fine/supine.json $(TABULATE)"):
+                     "$(RUN)/studies/own/fine/supine.json $(BIN)/tabulate"):
             self.assertIn(line + "\n", text)
         self.assertNotIn("its_hexmesh := --elements 16", text, "what the case has is not said again")
         self.assertIn("$(error own/fine: this variant needs a tumour", expanded(

@@ -146,7 +146,7 @@ class OtherFiles(unittest.TestCase):
 
     def test_tables(self) -> None:
         self.refused("t.tsv", b"a\tb\n1\t2\t3\n", "line 2 has 3 columns")
-        self.refused("t.tsv", b"a\n1\nnan\n", "row 2, a: 'nan' is not finite")
+        self.refused("t.tsv", b"a\n1\nnan\n", "line 3, a: 'nan' is not finite")
         self.refused("t.tsv", b"", "no header line")
         self.refused("t.tsv", b"a\ta\n", "two columns of one name")
 

@@ -91,7 +91,7 @@ class Warnings(InFolder):
 
     def test_columns_and_lines(self):
         self.assertEqual(aligned("# no\na\tbb\nccc\td\n"), "  a    bb\n  ccc  d\n")
-        self.assertEqual(folded("one two three", 8), "one two \nthree\n")
+        self.assertEqual(folded("one two three", 8), "one two\nthree\n")
 
 
 class Documents(InFolder):

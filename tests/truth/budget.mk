@@ -30,23 +30,23 @@ $(call budget_row,backward)/reference.json $(call budget_row,compression)/cc.jso
 # The remaining errors; the file is empty if a shape was not found: $(call unless_missing,SHAPES,COMMAND).
 unless_missing = if [ -e $(firstword $1) ] && [ -e $(lastword $1) ]; then $2; else rm -f $(basename $@)-summary.tsv; : > $@; fi
 budget_curves = $(call unless_missing,$1,$(CC2MLO) $1 $(basename $@).vtp --truth $(TRUTH_TABLE) --table $@ $(common))
-budget_landmarks = $(call unless_missing,$1,$(PROBE) $1 --truth $(TRUTH_TABLE) > $@.part; mv $@.part $@)
+budget_landmarks = $(call unless_missing,$1,$(BIN)/probe $1 --truth $(TRUTH_TABLE) > $@.part; mv $@.part $@)
 $(BUDGET_ROWS:%=$(BUDGET)/%/curves.tsv): $(BUDGET)/%/curves.tsv: $(call budget_row,%)/cc.json $(call budget_row,%)/mlo.json $(TRUTH_TABLE) $(CC2MLO)
 	@mkdir -p $(@D)
 	$(call budget_curves,$(call budget_row,$*)/cc.vtkhdf $(call budget_row,$*)/mlo.vtkhdf)
-$(patsubst %,$(BUDGET)/%/landmarks.tsv,$(filter-out compression,$(BUDGET_ROWS))): $(BUDGET)/%/landmarks.tsv: $(call budget_row,%)/supine.json $(TRUTH_TABLE) $(PROBE)
+$(patsubst %,$(BUDGET)/%/landmarks.tsv,$(filter-out compression,$(BUDGET_ROWS))): $(BUDGET)/%/landmarks.tsv: $(call budget_row,%)/supine.json $(TRUTH_TABLE) $(BIN)/probe
 	@mkdir -p $(@D)
 	$(call budget_landmarks,$(call budget_row,$*)/reference.vtkhdf $(call budget_row,$*)/supine.vtkhdf)
 $(BUDGET)/chain/curves.tsv: $(RUN)/truth-cc.vtkhdf $(RUN)/truth-mlo.vtkhdf $(TRUTH_TABLE) $(CC2MLO)
 	@mkdir -p $(@D)
 	$(call budget_curves,$(wordlist 1,2,$^))
-$(BUDGET)/chain/landmarks.tsv: $(RUN)/reference.vtkhdf $(RUN)/supine.vtkhdf $(TRUTH_TABLE) $(PROBE)
+$(BUDGET)/chain/landmarks.tsv: $(RUN)/reference.vtkhdf $(RUN)/supine.vtkhdf $(TRUTH_TABLE) $(BIN)/probe
 	@mkdir -p $(@D)
 	$(call budget_landmarks,$(wordlist 1,2,$^))
 
 $(BUDGET)/budget.tsv: $(foreach row,chain $(BUDGET_ROWS),$(BUDGET)/$(row)/curves.tsv) \
   $(foreach row,chain $(filter-out compression,$(BUDGET_ROWS)),$(BUDGET)/$(row)/landmarks.tsv) \
-  $(RUN)/cc.vti $(RUN)/mlo.vti $(TABULATE)
+  $(RUN)/cc.vti $(RUN)/mlo.vti $(BIN)/tabulate
 	$(call table,$(tabulate) budget $(RUN) $(BUDGET_ROWS))
 $(BUDGET)/budget.png: $(BUDGET)/budget.tsv $(RENDER)
 	$(call plot,budget)

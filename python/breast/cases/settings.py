@@ -23,7 +23,6 @@ from .settings_table import Setting, check_characters, check_choice, read_settin
 # A setting that is empty because a script's variable was must not get the results of the phantom, or the folder of all runs.
 _NEVER_EMPTY = {"MR": "name the scan, or leave MR out for the phantom PRESET", "CASE_FILE": "name the case file, or leave CASE_FILE out",
                 "CASE": "name the folder of the run, or leave CASE out", "RUNS": "name the folder of all runs, or leave RUNS out"}
-_FILES = ("FAT", "ALSO", "CHEST_WALL", "LANDMARKS", "SUPINE", "LABELS_TRUTH", "MAMMOGRAMS")  # LANDMARKS may name two, MAMMOGRAMS names two
 
 
 def check_given(pipelines: Path, command_line: Mapping[str, str], environment: Mapping[str, str]) -> None:
@@ -123,7 +122,8 @@ def _check_files(request: CaseRequest, settings: Sequence[Setting]) -> None:
             if not (os.path.isfile(program) and os.access(program, os.X_OK)):
                 raise BreastError(f"{name}: '{program}' is no program that can be run; give its path, or leave {name} out for libbreast's "
                                   "own")
-        for file in value.split(",") if name in _FILES and value else ():
+        # The scan may be a phantom that a rule makes, a material set a name; LANDMARKS and MAMMOGRAMS name two files.
+        for file in value.split(",") if setting.kind == "path" and setting.of_case and name not in ("MR", "MATERIALS") and value else ():
             if file != "phantom" and not request.is_result(file) and not os.path.exists(file):
                 raise BreastError(f"{name}: '{file}' does not exist; check its name and folder")
     mammograms = request.value("MAMMOGRAMS")

@@ -73,7 +73,7 @@ class StudyRules:
             table = f"$(RUN)/studies/{study}"
             says = [f"$(info {study}/{one.name} {_says(one, self._run)})" for one in rows if one.drops]
             parts.append(f"{study}_drops = {' '.join(says)}".rstrip() + "\n")
-            parts.append(f"{table}.tsv: {ends} $(TABULATE)\n"
+            parts.append(f"{table}.tsv: {ends} $(BIN)/tabulate\n"
                          f"\t$(call table,$(tabulate) study {table} $(landmarks) $({study}_variants))\n")
         return "".join(parts)
 

@@ -12,22 +12,28 @@ from ..errors import BreastError, Failed
 
 
 def started(name: str, words: Sequence[str]) -> subprocess.Popen[bytes]:
+    """A program that runs until `ended` waits for it; it may print up to 64 kB before that."""
     program = Path(sys.argv[0]).resolve().with_name(name)
     try:
-        return subprocess.Popen([program, *words], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        return subprocess.Popen([program, *words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     except OSError as error:
         raise Failed(f"cannot be started ({error.strerror})", program) from None
 
 
-def ended(name: str, child: subprocess.Popen[bytes]) -> list[str]:
-    """What a program said when it has succeeded, line by line. Raises the error with which it ended."""
-    said = os.fsdecode(child.communicate()[1]).splitlines()
-    lines = [line.removeprefix(f"{name}: ") for line in said]
+def ended(name: str, child: subprocess.Popen[bytes]) -> tuple[str, list[str]]:
+    """What a program printed and, line by line, said on stderr when it has succeeded. Raises the error with which it ended."""
+    printed, said = map(os.fsdecode, child.communicate())
+    lines = [line.removeprefix(f"{name}: ") for line in said.splitlines()]
     if child.returncode == 2 and lines:
         raise BreastError(lines[-1])
     if child.returncode != 0:
         raise Failed(lines[-1] if lines else f"{name} ended with {child.returncode}")
-    return lines
+    return printed, lines
+
+
+def printed_by(name: str, words: Sequence[str]) -> str:
+    """What a program printed. Raises the error with which it ended."""
+    return ended(name, started(name, [*words, "--quiet"]))[0]
 
 
 def readable_scan(file: Path, series: int, folder: Path) -> Path:
@@ -37,5 +43,5 @@ def readable_scan(file: Path, series: int, folder: Path) -> Path:
     if not file.is_dir() and file.name.lower().endswith(SCAN_ENDINGS):
         return file
     copy = folder / "scan.nrrd"
-    ended("scan", started("scan", [str(file), str(copy), "--series", str(series), "--quiet"]))
+    printed_by("scan", [str(file), str(copy), "--series", str(series)])
     return copy

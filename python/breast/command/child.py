@@ -7,11 +7,10 @@ import os
 import select
 import signal
 import subprocess
-import sys
 from collections.abc import Callable, Sequence
 from typing import IO, NamedTuple
 
-from ..errors import BreastError, Failed
+from ..errors import Failed
 
 _PR_SET_PDEATHSIG = 1
 
@@ -22,24 +21,22 @@ class Captured(NamedTuple):
     err: str
 
 
-def beside(name: str) -> str:
-    """The program of that name in the folder of the running one."""
-    return os.path.join(os.path.dirname(os.path.realpath(sys.argv[0])), name)
+def beginning() -> Callable[[], None]:
+    """What a child does first (preexec_fn): it ends with its parent, and receives the interrupts of the terminal."""
+    parent, libc = os.getpid(), ctypes.CDLL(None)
 
-
-def _begin(parent: int, libc: ctypes.CDLL) -> None:
-    """In the child: it ends with its parent, and receives the interrupts of the terminal."""
-    libc.prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
-    if os.getppid() != parent:
-        os._exit(127)
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
-    signal.signal(signal.SIGQUIT, signal.SIG_DFL)
+    def begin() -> None:
+        libc.prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
+        if os.getppid() != parent:
+            os._exit(127)
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+        signal.signal(signal.SIGQUIT, signal.SIG_DFL)
+    return begin
 
 
 def _start(words: Sequence[str], out: int | IO | None, err: int | IO | None) -> subprocess.Popen:
-    parent, libc = os.getpid(), ctypes.CDLL(None)
     try:
-        return subprocess.Popen(words, stdout=out, stderr=err, preexec_fn=lambda: _begin(parent, libc))
+        return subprocess.Popen(words, stdout=out, stderr=err, preexec_fn=beginning())
     except OSError:
         raise Failed(f"the program {words[0]} could not be started; is it installed?") from None
 
@@ -67,15 +64,6 @@ def capture_child(words: Sequence[str]) -> Captured:
     child = _start(words, subprocess.PIPE, subprocess.PIPE)
     out, err = child.communicate()
     return Captured(_code(child.returncode), os.fsdecode(out), os.fsdecode(err))
-
-
-def told(words: Sequence[str]) -> str:
-    """The output of a program beside this one. Raises the error with which it ended."""
-    ended = capture_child([beside(words[0]), *words[1:], "--quiet"])
-    if ended.exit_code == 0:
-        return ended.out
-    last = (ended.err.splitlines() or [f"{words[0]} ended with {ended.exit_code}"])[-1].removeprefix(f"{words[0]}: ")
-    raise (BreastError if ended.exit_code == 2 else Failed)(last)
 
 
 def follow_child(words: Sequence[str], say: Callable[[str], None], tick: Callable[[], None], out: IO | None = None) -> int:

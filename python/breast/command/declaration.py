@@ -121,16 +121,11 @@ def synopsis(tool: Declaration) -> str:
     return " ".join([_call_prefix() + tool.name, *(a.usage() for a in tool.positionals), *required, "[options]"])
 
 
-def _wrap(text: str, indent: int, width: int = 88) -> str:
-    """Lines of at most `width` characters; all but the first are indented."""
-    lines, line = [], ""
-    for word in text.split():
-        if line and indent + len(line.encode()) + 1 + len(word.encode()) > width:
-            lines.append(line)
-            line = word
-        else:
-            line = f"{line} {word}" if line else word
-    return ("\n" + " " * indent).join([*lines, line])
+def _wrap(text: str, indent: int) -> str:
+    """Lines of at most 88 characters; all but the first are indented."""
+    import textwrap
+    lines = textwrap.wrap(text, 88 - indent, break_long_words=False, break_on_hyphens=False)
+    return ("\n" + " " * indent).join(lines)
 
 
 def _listed(title: str, arguments: Sequence[Argument]) -> str:

@@ -8,6 +8,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from ..cases.settings_table import Setting, read_settings
 from ..errors import BreastError, Failed
 from ..text_table import read_text
 from .child import Captured, capture_child, run_child
@@ -15,14 +16,15 @@ from .installation import Installation
 from .make_name import folder_for_make, name_for_make, plain_for_make
 from .request import PipelineRequest, parse_request
 
-# Settings that may name a file or folder of the caller's.
-_PATH_SETTINGS = ("FAT", "ALSO", "CHEST_WALL", "SUPINE", "LABELS_TRUTH", "MATERIALS", "TUMOUR", "CASE_FILE", "STUDY", "SEGMENT", "FIT_HERMITE",
-                  "HEXMESH", "BACKWARD", "FORWARD", "COMPRESS", "PROJECT", "CC2MLO")
+
+def _settings(installation: Installation) -> list[Setting]:
+    return read_settings(Path(installation.pipelines))
 
 
-def settings_for_make(r: PipelineRequest, runs: str) -> list[str]:
+def settings_for_make(installation: Installation, r: PipelineRequest, runs: str) -> list[str]:
     """Every setting in the form that make accepts, with links where the name of a file needs one."""
     links = Path(runs) / ".names"
+    files = {one.name for one in _settings(installation) if one.kind in ("path", "program") or "place" in one.choices}
     words = [f"RUNS={runs}"]
     if r.scan:
         words.append(("COHORT=" if r.command == "cohort" else "MR=") + name_for_make(r.scan, links))
@@ -32,7 +34,7 @@ def settings_for_make(r: PipelineRequest, runs: str) -> list[str]:
     if r.command == "demo" and r.target == "report" and not {"PRESET", "PAPER"} & r.settings.keys():
         words.append("PRESET=average")
     for name, value in sorted(r.settings.items()):
-        file = name in _PATH_SETTINGS and os.path.exists(value)
+        file = name in files and os.path.exists(value)
         words.append(f"{name}={name_for_make(value, links) if file else value}")
     return words
 
@@ -93,15 +95,13 @@ def show_results(targets: Sequence[str], run: str) -> None:
 
 
 def pipeline_settings(installation: Installation) -> list[str]:
-    """The settings of the pipeline by name; empty if make fails to list them."""
-    made = capture_child(["make", "-s", "-f", _make_file(installation), "settings"])
-    return made.out.split() if made.exit_code == 0 else []
+    """The settings of the pipeline by name."""
+    return [one.name for one in _settings(installation) if one.name != "RUN"]
 
 
 def setting_help(installation: Installation, name: str) -> str:
     """What a setting does, what it accepts and its default; "" if there is no such setting."""
-    from ..cases.settings_table import read_settings
-    setting = next((s for s in read_settings(Path(installation.pipelines)) if s.name == name.upper()), None)
+    setting = next((s for s in _settings(installation) if s.name == name.upper()), None)
     if setting is None:
         return ""
     lines, found = settings_help(installation).splitlines(), []
@@ -146,7 +146,7 @@ def settings_help(installation: Installation) -> str:
 
 def asked_of_make(installation: Installation, r: PipelineRequest) -> tuple[list[str], str, str]:
     """The words that make is called with, without targets; the folder of the results; and the plan. Raises BreastError if make refuses."""
-    make = ["make", "-f", _make_file(installation), *settings_for_make(r, folder_for_make(r.runs, "--runs"))]
+    make = ["make", "-f", _make_file(installation), *settings_for_make(installation, r, folder_for_make(r.runs, "--runs"))]
     return make, _ask([*make, "-s", "where"]).removesuffix("\n"), _ask([*make, "-n", *r.target.split()])
 
 

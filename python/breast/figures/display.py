@@ -2,21 +2,19 @@
 """A private X display: the packaged VTK 9.1 draws only through X and aborts without a display."""
 from __future__ import annotations
 
-import ctypes
 import os
 import select
 import shutil
-import signal
 import subprocess
 import tempfile
 from glob import glob
 from types import TracebackType
 
+from ..command.child import beginning
 from ..errors import Failed
 
 _START_SECONDS = 30
 _PACKAGES = "install the Debian packages xvfb xauth libgl1-mesa-dri"
-_PR_SET_PDEATHSIG = 1
 
 
 class PrivateDisplay:
@@ -30,17 +28,10 @@ class PrivateDisplay:
     def __enter__(self) -> PrivateDisplay:
         _check_installed()
         reading, writing = os.pipe()
-        parent, libc = os.getpid(), ctypes.CDLL(None)
-
-        def die_with_parent() -> None:
-            libc.prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
-            if os.getppid() != parent:
-                os._exit(1)
-
         with tempfile.TemporaryFile() as words:
             command = ["Xvfb", "-displayfd", str(writing), "-screen", "0", "1280x1024x24", "-nolisten", "tcp", "-noreset"]
             self._server = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=words, stderr=words, pass_fds=[writing],
-                                            preexec_fn=die_with_parent)
+                                            preexec_fn=beginning())
             os.close(writing)
             number = _read_number(reading)
             os.close(reading)

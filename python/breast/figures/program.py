@@ -127,5 +127,5 @@ def _started_pairs(args: Any) -> subprocess.Popen[bytes] | None:
 
 
 def _finish_pairs(child: subprocess.Popen[bytes] | None, run: Run) -> None:
-    for remark in ended("pairs", child) if child is not None else []:
+    for remark in ended("pairs", child)[1] if child is not None else []:
         run.remark(remark)

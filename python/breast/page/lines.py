@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..command.child import told
+from ..command.beside import printed_by
 from ..curves import read_curves
 from ..errors import BreastError
 from ..state import State
@@ -76,8 +76,8 @@ def line_at(states: tuple[State, State], uv: np.ndarray) -> MatchedLine | None:
             raise BreastError(f"was made of another compression than {state.file.name}", file, "run sensitivity again")
     with tempfile.TemporaryDirectory(prefix="breast-line-") as folder:
         drawn, table = (str(Path(folder) / name) for name in ("curve.vtp", "curve.tsv"))
-        told(["cc2mlo", *map(str, files if banded else [state.file for state in states]), drawn, "--point", f"{uv[0]},{uv[1]}",
-              "--table", table, *(["--band"] if banded else [])])
+        printed_by("cc2mlo", [*map(str, files if banded else [state.file for state in states]), drawn, "--point", f"{uv[0]},{uv[1]}",
+                              "--table", table, *(["--band"] if banded else [])])
         row = read_table(table)
         if row.cell(0, "status") == "air":
             return None

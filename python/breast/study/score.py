@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..command.child import told
+from ..command.beside import printed_by
 from ..command.tool import Run, Tool
 from ..errors import BreastError
 from ..output import write_text
@@ -85,7 +85,7 @@ class _Case:
 
     def _of_postures(self, postures: list[str]) -> list[Score]:
         files = [self._state("mesh"), *(self._state(_FILES[posture]) for posture in postures)]
-        table = parse_table(told(["probe", *filter(None, files), "--truth", self._truth()]), "probe --truth")
+        table = parse_table(printed_by("probe", [*filter(None, files), "--truth", self._truth()]), "probe --truth")
         scores = []
         for row in table:
             if row["landmark"] in ("mean", "largest"):
@@ -101,7 +101,7 @@ class _Case:
         if not all(views):
             raise BreastError("has no cc.vtkhdf and mlo.vtkhdf", self.run)
         table = self.work / "curve.tsv"
-        told(["cc2mlo", *views, str(self.work / "curve.vtp"), *words, "--table", str(table), *(["--band"] if self.has_band() else [])])
+        printed_by("cc2mlo", [*views, str(self.work / "curve.vtp"), *words, "--table", str(table), *(["--band"] if self.has_band() else [])])
         return read_table(table)
 
     def _of_curve(self, table: Table, whose: str, landmark: str = "") -> list[Score]:

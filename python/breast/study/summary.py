@@ -2,6 +2,7 @@
 """The results of a finished case as text for a terminal."""
 from __future__ import annotations
 
+import textwrap
 from pathlib import Path
 
 from ..cases.compression import views_without_compression
@@ -29,12 +30,7 @@ def aligned(tsv: str) -> str:
 
 def folded(text: str, width: int) -> str:
     """The text in lines of at most `width` characters, broken at blanks if there are any."""
-    lines = []
-    while len(text) > width:
-        at = text.rfind(" ", 0, width) + 1 or width
-        lines.append(text[:at])
-        text = text[at:]
-    return "".join(line + "\n" for line in [*lines, text])
+    return textwrap.fill(text, width, break_on_hyphens=False) + "\n"
 
 
 def lines_of(text: str) -> list[str]:
