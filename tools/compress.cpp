@@ -124,7 +124,7 @@ void declare(Tool& tool, Choices& c) {
       "starts, is this far in front of the chest wall behind the breast (its most anterior point), "
       "or of the muscle on it. auto is 5 for CC and 0 for MLO and ML; on a mesh with a layer of "
       "muscle, the edge for MLO and ML is 1.25 times the muscle's thickness behind the front of the "
-      "muscle. The defaults of --turn, --lean, --edge-radius, --contact-points, --friction, "
+      "muscle. The defaults of --turn, --lean, --bend, --edge-radius, --contact-points, --friction, "
       "--positioning and --pull depend on this option. By default it is auto for a breast that "
       "slides on its chest wall; otherwise, or if --standoff is given, --standoff places the plates");
   tool.text(
@@ -138,6 +138,11 @@ void declare(Tool& tool, Choices& c) {
       "the upper corner of the detector lies in the axilla. auto is 0 for CC; for MLO and ML it "
       "makes the edge parallel to the chest wall and adds 4 degrees (default: auto with "
       "--image-edge, otherwise 0)");
+  tool.text(
+      c.bend, "--bend", "auto|DEG",
+      "the patient bends forwards by this angle, and gravity turns with her; auto, from 0 to 20, brings the edges of "
+      "both plates equally near to a chest wall that recedes upwards (default: auto for CC with --image-edge, "
+      "otherwise 0)");
   tool.choice(
       c.contact_points, "--contact-points", {"surface", "nodes"},
       "surface keeps the element faces out of the plates to within 0.05 mm; nodes keeps the "
@@ -193,9 +198,9 @@ void declare(Tool& tool, Choices& c) {
                  "while the plates close from first contact, in equal steps of thickness");
   tool.topic("target", {"--thickness", "--reduction", "--force", "--pressure", "--area", "--like",
                         "--at-least"});
-  tool.topic("plates", {"--standoff", "--image-edge", "--turn", "--lean", "--contact-points",
-                        "--positioning", "--pull", "--edge-at", "--middle-at", "--edge-radius",
-                        "--tilt", "--detector", "--friction"});
+  tool.topic("plates", {"--standoff", "--image-edge", "--turn", "--lean", "--bend",
+                        "--contact-points", "--positioning", "--pull", "--edge-at", "--middle-at",
+                        "--edge-radius", "--tilt", "--detector", "--friction"});
   tool.topic("solver", {"--plate-step", "--contact"});
   tool.basic({"--view", "--angle", "--thickness", "--reduction", "--force", "--pressure", "--like",
               "--image-edge", "--friction", "--materials", "--keep-unconverged"});
@@ -204,6 +209,7 @@ void declare(Tool& tool, Choices& c) {
     parse_detector(c.detector);
     if (!c.turn.empty()) parse_turn(c.turn);
     if (!c.lean.empty()) parse_lean(c.lean);
+    if (!c.bend.empty()) parse_bend(c.bend);
     if (!c.image_edge.empty()) parse_image_edge(c.image_edge, view_named(c.view), 0);
   });
 }
@@ -264,6 +270,7 @@ void run_compress(Choices c, Run& run) {
     CompressionOptions same_gap = options;
     same_gap.stops = {{StopAt::thickness, found.contact->thickness_mm}};
     same_gap.plates.middle_at = found.plates.middle();
+    same_gap.plates.edge_at = found.plates.paddle.edge_start;
     same_gap.must_grip = false;
     same_gap.states = 0;
     estimate_by_second_solution(mesh, mechanics.options(), found,
