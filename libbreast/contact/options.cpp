@@ -18,9 +18,8 @@ constexpr double slipping_part = 0.006;
 /// Default distance from the chest wall to the edge of the image, mm. The oblique view shows muscle:
 /// in a mesh with a layer of muscle the edge lies behind its front by this fraction of its thickness.
 constexpr double edge_cc = 5, edge_in_muscle = 1.25;
-/// The farthest from there that images show in practice: the muscle reaches the image in a third of the craniocaudal views,
-/// and in nearly all oblique ones (Mercer et al. 2015).
-constexpr double farthest_edge_cc = 10, farthest_edge_oblique = 0;
+/// The farthest from there in CC that images show in practice, mm: a third of them show muscle (Mercer et al. 2015).
+constexpr double farthest_edge_cc = 10;
 /// Default radius of the rounded edge, mm. In oblique views it presses into the muscle and the axilla, where a sharper
 /// edge pinches single elements; in CC a larger one would reach back to the chest wall and carry the force there.
 constexpr double radius_cc = 3, radius_oblique = 15;
@@ -146,9 +145,9 @@ CompressionOptions compression_options(const CompressionChoices& c, const Vec3& 
   if (by_image) {
     options.plates.image_edge = parse_image_edge(c.image_edge.empty() ? "auto" : c.image_edge,
                                                  options.view, body.muscle_mm);
-    if ((c.image_edge.empty() || c.image_edge == "auto") && !c.plates.edge_at)
-      options.plates.farthest_image_edge =
-          options.view == View::cc ? farthest_edge_cc : farthest_edge_oblique;
+    const bool automatic = (c.image_edge.empty() || c.image_edge == "auto") && !c.plates.edge_at;
+    if (automatic && options.view == View::cc)
+      options.plates.farthest_image_edge = farthest_edge_cc;
   }
   options.plates.detector_rise = parse_detector(c.detector);
   options.plates.edge_radius = c.edge_radius.value_or(usual.edge_radius);
