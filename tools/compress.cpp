@@ -190,8 +190,8 @@ void declare(Tool& tool, Choices& c) {
   declare_mechanics(tool, c.mechanics, "REFERENCE");
   tool.number(
       c.plate_step, "--plate-step", "MM",
-      "longest step by which the plates close (default: 7 % of the initial thickness; in MLO and ML "
-      "with friction, 0.6 % as long as the hand is being withdrawn)",
+      "longest step by which the plates close (default: 7 % of the initial thickness; with friction "
+      "2.5 %, in MLO and ML 0.6 %, as long as the hand is being withdrawn)",
       0.1, 1000);
   tool.choice(c.contact, "--contact", {"active-set", "al"},
               "contact algorithm: exact active set, or the paper's augmented Lagrangian");
