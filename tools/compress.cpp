@@ -35,7 +35,7 @@ void declare(Tool& tool, Choices& c) {
       "that they just touch it, and closes them to a thickness, a reduction, a force, a mean "
       "pressure or a contact area; if several are given, the first one that is reached ends the "
       "compression. If none is given, the plates close as in screening, to a force of 110 N or to 35 "
-      "mm, whichever comes first; a breast with a projection of less than 31 cm2 is given 3.5 N per "
+      "mm, whichever comes first; a breast with a projection of less than 28 cm2 is given 4 N per "
       "cm2 of it, but at least 50 N.");
   tool.describe(
       "With --image-edge, which is the default for a breast that slides on its chest "
@@ -190,8 +190,8 @@ void declare(Tool& tool, Choices& c) {
   declare_mechanics(tool, c.mechanics, "REFERENCE");
   tool.number(
       c.plate_step, "--plate-step", "MM",
-      "longest step by which the plates close (default: 7 % of the initial thickness; with friction "
-      "2.5 %, in MLO and ML 0.6 %, as long as the hand is being withdrawn)",
+      "longest step by which the plates close (default: 7 % of the initial thickness; in MLO and ML "
+      "with friction, 0.6 % as long as the hand is being withdrawn)",
       0.1, 1000);
   tool.choice(c.contact, "--contact", {"active-set", "al"},
               "contact algorithm: exact active set, or the paper's augmented Lagrangian");

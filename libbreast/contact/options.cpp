@@ -15,9 +15,6 @@ namespace {
 /// the breast by friction, while the hand lets it go: along these plates it slips farther than in
 /// CC, and its end depends on the steps in which it slips.
 constexpr double slipping_part = 0.006;
-/// The same in CC. Steps of half the length then change the thickness by 0.1 mm; with steps of 7 % two ways to one target
-/// ended 0.9 mm apart, and one of them with an edge that carried twice as much.
-constexpr double slipping_part_cc = 0.025;
 /// Default distance from the chest wall to the edge of the image, mm. The oblique view shows muscle:
 /// in a mesh with a layer of muscle the edge lies behind its front by this fraction of its thickness.
 constexpr double edge_cc = 5, edge_in_muscle = 1.25;
@@ -166,8 +163,7 @@ CompressionOptions compression_options(const CompressionChoices& c, const Vec3& 
   const bool held = faces && options.friction > 0 && options.positioning == Positioning::lifted;
   options.pull_N = c.pull.value_or(held ? usual.pull_N : 0);
   options.path.first_step = options.path.longest_step = c.plate_step.value_or(0);
-  if (options.friction > 0)
-    options.path.slipping_part = options.view == View::cc ? slipping_part_cc : slipping_part;
+  if (options.view != View::cc && options.friction > 0) options.path.slipping_part = slipping_part;
   options.stops = c.stops();
   return options;
 }
