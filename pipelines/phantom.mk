@@ -65,7 +65,8 @@ $(TRUTH_TABLE): $(PHANTOM_TRUTH)/landmarks.tsv $(TRUTH_MESHES) $(BIN)/truth-tabl
 	$(BIN)/truth-table $< $@ $(TRUTH_MESHES) $(common)
 plates_of_truth = $(call same_plates,$(TRUTH_AT)-fine-$1.json) $(if $(body_slides),$(wordlist 2,3,$(truth_edge_$1)))
 same_plates = --thickness $$($(tabulate) key $1 thickness_mm) --edge-at $$($(tabulate) key $1 edge_at_mm) \
-  --middle-at $$($(tabulate) key $1 middle_at_mm) --turn $$($(tabulate) key $1 turn_deg) --lean $$($(tabulate) key $1 lean_deg)
+  --middle-at $$($(tabulate) key $1 middle_at_mm) --turn $$($(tabulate) key $1 turn_deg) --lean $$($(tabulate) key $1 lean_deg) \
+  --bend $$($(tabulate) key $1 bend_deg)
 truth-compressed_settings := $(BIN)/probe
 $(RUN)/truth-compressed.tsv: $(TRUTH_TABLE) $(addprefix $(RUN)/,mesh.vtkhdf reference.vtkhdf supine.vtkhdf \
   truth-cc.vtkhdf truth-mlo.vtkhdf) $(BIN)/probe $(call changed,truth-compressed)

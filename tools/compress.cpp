@@ -35,7 +35,7 @@ void declare(Tool& tool, Choices& c) {
       "that they just touch it, and closes them to a thickness, a reduction, a force, a mean "
       "pressure or a contact area; if several are given, the first one that is reached ends the "
       "compression. If none is given, the plates close as in screening, to a force of 110 N or to 35 "
-      "mm, whichever comes first; a breast with a projection of less than 73 cm2 is given 1.5 N per "
+      "mm, whichever comes first; a breast with a projection of less than 28 cm2 is given 4 N per "
       "cm2 of it, but at least 50 N.");
   tool.describe(
       "With --image-edge, which is the default for a breast that slides on its chest "
@@ -124,13 +124,15 @@ void declare(Tool& tool, Choices& c) {
       "starts, is this far in front of the chest wall behind the breast (its most anterior point), "
       "or of the muscle on it. auto is 5 for CC and 0 for MLO and ML; on a mesh with a layer of "
       "muscle, the edge for MLO and ML is 1.25 times the muscle's thickness behind the front of the "
-      "muscle. The defaults of --turn, --lean, --edge-radius, --contact-points, --friction, "
+      "muscle. If the rounded edges of auto carry 40 % of a plate's force in CC, the plates are placed anew at 7.5 and then at "
+      "10. The defaults of --turn, --lean, --bend, --edge-radius, --contact-points, --friction, "
       "--positioning and --pull depend on this option. By default it is auto for a breast that "
       "slides on its chest wall; otherwise, or if --standoff is given, --standoff places the plates");
   tool.text(
       c.turn, "--turn", "auto|DEG",
       "turn the plates' edge by this angle towards the breast's side, about the patient's long "
-      "axis; auto makes it parallel to the chest wall behind the breast (default: auto with "
+      "axis; auto makes it parallel to the chest wall behind the breast, in CC turned by at most 15 "
+      "degrees (default: auto with "
       "--image-edge, otherwise 0)");
   tool.text(
       c.lean, "--lean", "auto|DEG",
@@ -138,6 +140,11 @@ void declare(Tool& tool, Choices& c) {
       "the upper corner of the detector lies in the axilla. auto is 0 for CC; for MLO and ML it "
       "makes the edge parallel to the chest wall and adds 4 degrees (default: auto with "
       "--image-edge, otherwise 0)");
+  tool.text(
+      c.bend, "--bend", "auto|DEG",
+      "the patient bends forwards by this angle, and gravity turns with her; auto, from 0 to 20, brings the edges of "
+      "both plates equally near to a chest wall that recedes upwards (default: auto for CC with --image-edge, "
+      "otherwise 0)");
   tool.choice(
       c.contact_points, "--contact-points", {"surface", "nodes"},
       "surface keeps the element faces out of the plates to within 0.05 mm; nodes keeps the "
@@ -177,7 +184,7 @@ void declare(Tool& tool, Choices& c) {
             "fixed: only the paddle moves; a number: the detector rises by so much and the paddle "
             "does the rest");
   tool.number(c.friction, "--friction", "MU",
-              "coefficient of Coulomb friction between skin and plates (default: 0.15 with "
+              "coefficient of Coulomb friction between skin and plates (default: 0.3 with "
               "--image-edge, otherwise 0)",
               0, 2);
   declare_mechanics(tool, c.mechanics, "REFERENCE");
@@ -193,9 +200,9 @@ void declare(Tool& tool, Choices& c) {
                  "while the plates close from first contact, in equal steps of thickness");
   tool.topic("target", {"--thickness", "--reduction", "--force", "--pressure", "--area", "--like",
                         "--at-least"});
-  tool.topic("plates", {"--standoff", "--image-edge", "--turn", "--lean", "--contact-points",
-                        "--positioning", "--pull", "--edge-at", "--middle-at", "--edge-radius",
-                        "--tilt", "--detector", "--friction"});
+  tool.topic("plates", {"--standoff", "--image-edge", "--turn", "--lean", "--bend",
+                        "--contact-points", "--positioning", "--pull", "--edge-at", "--middle-at",
+                        "--edge-radius", "--tilt", "--detector", "--friction"});
   tool.topic("solver", {"--plate-step", "--contact"});
   tool.basic({"--view", "--angle", "--thickness", "--reduction", "--force", "--pressure", "--like",
               "--image-edge", "--friction", "--materials", "--keep-unconverged"});
@@ -204,6 +211,7 @@ void declare(Tool& tool, Choices& c) {
     parse_detector(c.detector);
     if (!c.turn.empty()) parse_turn(c.turn);
     if (!c.lean.empty()) parse_lean(c.lean);
+    if (!c.bend.empty()) parse_bend(c.bend);
     if (!c.image_edge.empty()) parse_image_edge(c.image_edge, view_named(c.view), 0);
   });
 }
@@ -264,6 +272,7 @@ void run_compress(Choices c, Run& run) {
     CompressionOptions same_gap = options;
     same_gap.stops = {{StopAt::thickness, found.contact->thickness_mm}};
     same_gap.plates.middle_at = found.plates.middle();
+    same_gap.plates.edge_at = found.plates.paddle.edge_start;
     same_gap.must_grip = false;
     same_gap.states = 0;
     estimate_by_second_solution(mesh, mechanics.options(), found,

@@ -325,10 +325,7 @@ bool Compression::position(State& state) {
 
 void Compression::place(const State& start) {
   const std::vector<Vec3> points = unflatten(start.x);
-  const double turn = options_.plates.turn_deg.value_or(wall_turn_deg(mesh_, points));
-  const ViewPose parallel = view_pose(mesh_.side, options_.angle_deg, turn);
-  const double lean = options_.plates.lean_deg.value_or(muscle_lean_deg(mesh_, points, parallel));
-  found_.pose = view_pose(mesh_.side, options_.angle_deg, turn, lean);
+  found_.pose = place_pose(mesh_, points, options_.angle_deg, options_.plates);
   found_.plates = place_plates(mesh_, points, found_.pose, options_.plates);
   start_ = start.x;
 }
@@ -354,6 +351,7 @@ void Compression::say_where_plates_stand() const {
   progress_.note(message("T0 ", initial, " mm, plates' edge ", std::abs(standoff), " mm ",
                          standoff < 0 ? "behind the front" : "in front", " of the wall, turned by ",
                          found_.pose.turn_deg, " and leaning by ", found_.pose.lean_deg,
+                         " degrees, patient bent forwards by ", found_.pose.bend_deg,
                          " degrees, edge radius ", found_.plates.paddle.edge_radius, " mm"));
   for (const CompressionStop& stop : found_.stops) {
     if (stop.at != StopAt::thickness || stop.value < initial) continue;
@@ -409,12 +407,73 @@ void check(const HexMesh& mesh, const CompressionOptions& options,
   }
 }
 
+/// Largest share of a plate's force on its rounded edge.
+double most_on_edge(const CompressionResult& found) {
+  double most = 0;
+  for (const PressedPlace& place : found.places) most = std::max(most, place.edge_part);
+  return most;
+}
+
+/// Whether the edges press on the chest wall instead of the breast, so that the result is no compression.
+bool presses_on_wall(const CompressionResult& found) {
+  return !found.converged() && std::ranges::any_of(found.judgement, [](const Judgement& line) {
+    return line.id == "edge_carries_force";
+  });
+}
+
+/// Where the edge of the image is placed if the wall is in the way: halfway to the farthest place, and there.
+std::vector<double> farther_image_edges(const PlateOptions& plates) {
+  constexpr double least_mm = 1;
+  if (!plates.image_edge || !plates.farthest_image_edge) return {};
+  const double farthest = *plates.farthest_image_edge, way = farthest - *plates.image_edge;
+  if (way < least_mm) return {};
+  return {farthest - 0.5 * way, farthest};
+}
+
+/// Adds the cost of an earlier placement of the plates.
+void charge(const CompressionResult& earlier, CompressionResult& found) {
+  std::vector<IterationRecord>& rows = found.record.iterations;
+  for (IterationRecord& row : rows) row.step += earlier.steps;
+  rows.insert(rows.begin(), earlier.record.iterations.begin(), earlier.record.iterations.end());
+  found.steps += earlier.steps;
+  found.newton_iterations += earlier.newton_iterations;
+  found.linear_iterations += earlier.linear_iterations;
+  found.factorisations += earlier.factorisations;
+  found.path.indefinite += earlier.path.indefinite;
+  found.path.failures += earlier.path.failures;
+  for (const auto& [phase, seconds] : earlier.timer.seconds()) found.timer.add(phase, seconds);
+}
+
+/// The options with the angle by which the patient bends forwards, and gravity in her frame.
+CompressionOptions bent(const HexMesh& mesh, CompressionOptions options) {
+  const ViewPose pose = place_pose(mesh, mesh.reference, options.angle_deg, options.plates);
+  options.plates.bend_deg = pose.bend_deg;
+  options.gravity = turned_by_bend(pose, options.gravity);
+  return options;
+}
+
 }  // namespace
 
 CompressionResult compress(const HexMesh& mesh, const CompressionOptions& options,
                            const MechanicsOptions& mechanics, Progress& progress) {
   check(mesh, options, mechanics);
-  return Compression(mesh, options, mechanics, progress).run();
+  CompressionOptions placed = bent(mesh, options);
+  CompressionResult found = Compression(mesh, placed, mechanics, progress).run();
+  for (const double image_edge : farther_image_edges(placed.plates)) {
+    if (!presses_on_wall(found)) break;
+    progress.note(message("the plates' edge carries ", std::round(100 * most_on_edge(found)),
+                          " % of a plate's force: the plates are placed anew, their edge ",
+                          image_edge - *placed.plates.image_edge, " mm farther from the wall"));
+    placed.plates.image_edge = image_edge;
+    CompressionResult next = Compression(mesh, placed, mechanics, progress).run();
+    next.placements = found.placements + 1;
+    const bool better = next.converged() || most_on_edge(next) < most_on_edge(found);
+    if (!better) std::swap(next, found);
+    charge(found, next);
+    next.placements = std::max(found.placements, next.placements);
+    found = std::move(next);
+  }
+  return found;
 }
 
 }  // namespace breast

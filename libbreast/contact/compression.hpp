@@ -68,6 +68,7 @@ struct CompressionResult : Equilibrium {
   std::vector<PressedPlace> places;                            ///< per plate of the contact record
   std::vector<Judgement> judgement;  ///< comparison with clinical ranges, and comments on the solve
   std::vector<CompressionStop> stops;  ///< the targets
+  int placements = 1;  ///< how often the plates were placed (PlateOptions::farthest_image_edge)
   /// Of plates placed by the edge of the image: the state is within the ranges that decide, whether or
   /// not the target was reached.
   bool acceptable = false;
@@ -78,7 +79,8 @@ struct CompressionResult : Equilibrium {
 
 /// Compresses mesh.reference. A compression that stops early returns its last equilibrium with the status
 /// stopped_early and the reason, and one that does not grip the breast the status not_gripped; if gravity
-/// alone does not converge, the status is not_converged. Throws Error (input) when the plates miss the breast
+/// alone does not converge, the status is not_converged. Plates that were placed several times have the cost of all their
+/// placements. Throws Error (input) when the plates miss the breast
 /// or an option is out of range.
 CompressionResult compress(const HexMesh& mesh, const CompressionOptions& options,
                            const MechanicsOptions& mechanics, Progress& progress = no_progress());

@@ -18,9 +18,17 @@ constexpr double slipping_part = 0.006;
 /// Default distance from the chest wall to the edge of the image, mm. The oblique view shows muscle:
 /// in a mesh with a layer of muscle the edge lies behind its front by this fraction of its thickness.
 constexpr double edge_cc = 5, edge_in_muscle = 1.25;
+/// The farthest from there in CC that images show in practice, mm: a third of them show muscle (Mercer et al. 2015).
+constexpr double farthest_edge_cc = 10;
 /// Default radius of the rounded edge, mm. In oblique views it presses into the muscle and the axilla, where a sharper
 /// edge pinches single elements; in CC a larger one would reach back to the chest wall and carry the force there.
 constexpr double radius_cc = 3, radius_oblique = 15;
+/// In CC the detector's edge lies across the patient's body, who turns by no more than this (degrees) towards the breast's side.
+constexpr double most_turn_cc = 15;
+/// Of skin on a smooth plate. Measured in living people: 0.46 ± 0.15 in the mean of five materials, 0.37 ± 0.09 on nylon, the
+/// lowest of them (Zhang and Mak 1999); above 0.2 and typically 0.5 for dry skin (Derler and Gerhardt 2012). This is the
+/// lower end, with which the plates still hold what the hand has pulled forwards.
+constexpr double skin_friction = 0.3;
 /// Percent; a smaller reduction is a fraction, not a percentage.
 constexpr double least_reduction = 1;
 
@@ -86,6 +94,10 @@ std::optional<double> parse_lean(const std::string& text) {
   return parse_angle("--lean", text, 45);
 }
 
+std::optional<double> parse_bend(const std::string& text) {
+  return parse_angle("--bend", text, 45);
+}
+
 std::vector<CompressionStop> CompressionChoices::stops() const {
   std::vector<CompressionStop> all;
   const auto add = [&](const std::optional<double>& value, StopAt at) {
@@ -104,8 +116,12 @@ Placement Placement::clinical(View view) {
   Placement placement;
   placement.edge_radius = view == View::cc ? radius_cc : radius_oblique;
   placement.turn_deg = placement.lean_deg = std::nullopt;
+  if (view == View::cc) {
+    placement.bend_deg = std::nullopt;
+    placement.most_turn_deg = most_turn_cc;
+  }
   placement.method = ContactMethod::surface;
-  placement.friction = 0.15;
+  placement.friction = skin_friction;
   placement.positioning = Positioning::lifted;
   placement.pull_N = 30;
   return placement;
@@ -129,11 +145,16 @@ CompressionOptions compression_options(const CompressionChoices& c, const Vec3& 
   if (by_image) {
     options.plates.image_edge = parse_image_edge(c.image_edge.empty() ? "auto" : c.image_edge,
                                                  options.view, body.muscle_mm);
+    const bool automatic = (c.image_edge.empty() || c.image_edge == "auto") && !c.plates.edge_at;
+    if (automatic && options.view == View::cc)
+      options.plates.farthest_image_edge = farthest_edge_cc;
   }
   options.plates.detector_rise = parse_detector(c.detector);
   options.plates.edge_radius = c.edge_radius.value_or(usual.edge_radius);
   options.plates.turn_deg = c.turn.empty() ? usual.turn_deg : parse_turn(c.turn);
+  options.plates.most_turn_deg = usual.most_turn_deg;
   options.plates.lean_deg = c.lean.empty() ? usual.lean_deg : parse_lean(c.lean);
+  options.plates.bend_deg = c.bend.empty() ? usual.bend_deg : parse_bend(c.bend);
   options.method = method_of(c, usual.method);
   options.positioning = positioning_of(c, usual.positioning);
   const bool faces = options.method == ContactMethod::surface;

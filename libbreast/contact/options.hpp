@@ -20,10 +20,13 @@ double parse_image_edge(const std::string& text, View view, double muscle_mm);
 std::optional<double> parse_turn(const std::string& text);
 /// Angle (degrees) by which the plates' edge leans; as parse_turn.
 std::optional<double> parse_lean(const std::string& text);
+/// Angle (degrees) by which the patient bends forwards; as parse_turn.
+std::optional<double> parse_bend(const std::string& text);
 
 /// The compression options as given on a command line.
 struct CompressionChoices {
-  std::string view = "CC", contact = "active-set", detector = "raised", image_edge, turn, lean;
+  std::string view = "CC", contact = "active-set", detector = "raised", image_edge, turn, lean,
+              bend;
   std::string contact_points, positioning;  ///< empty: the default of compression_options
   std::optional<double> angle, thickness, reduction, force, pressure, area, plate_step;
   std::optional<double> friction, edge_radius, pull;
@@ -35,8 +38,9 @@ struct CompressionChoices {
 
 /// How plates stand and hold a breast, unless options say otherwise.
 struct Placement {
-  double edge_radius = PlateOptions().edge_radius;   ///< mm
-  std::optional<double> turn_deg = 0, lean_deg = 0;  ///< as in PlateOptions
+  double edge_radius = PlateOptions().edge_radius;                 ///< mm
+  std::optional<double> turn_deg = 0, lean_deg = 0, bend_deg = 0;  ///< as in PlateOptions
+  double most_turn_deg = PlateOptions().most_turn_deg;
   ContactMethod method = ContactMethod::active_set;
   double friction = 0;  ///< of faces on plates
   Positioning positioning = Positioning::hanging;

@@ -292,8 +292,7 @@ PlatePair place_plates(const HexMesh& mesh, const std::vector<Vec3>& x, const Vi
   return pair;
 }
 
-double wall_turn_deg(const HexTopology& mesh, const std::vector<Vec3>& x) {
-  constexpr double most = 45;
+double wall_turn_deg(const HexTopology& mesh, const std::vector<Vec3>& x, double most) {
   const Vec3 outward = towards_ribs(mesh, x);
   if (!(outward.head<2>().norm() > 0)) return 0;
   const double turn = std::atan2(-lateral_sign(mesh.side) * outward.x(), outward.y());
@@ -310,6 +309,25 @@ double muscle_lean_deg(const HexTopology& mesh, const std::vector<Vec3>& x, cons
   if (!(forwards.norm() > 0)) return 0;
   const double parallel = std::atan2(forwards.dot(upwards), forwards.dot(upright.e_u));
   return std::clamp(parallel * 180 / std::numbers::pi + beyond_parallel, 0.0, most);
+}
+
+double wall_bend_deg(const HexTopology& mesh, const std::vector<Vec3>& x, const ViewPose& pose) {
+  constexpr double most = 20;
+  const Vec3 forwards = -towards_ribs(mesh, x);
+  if (!(forwards.norm() > 0)) return 0;
+  const double parallel = std::atan2(-forwards.dot(pose.n), forwards.dot(pose.e_u));
+  return std::clamp(parallel * 180 / std::numbers::pi, 0.0, most);
+}
+
+ViewPose place_pose(const HexTopology& mesh, const std::vector<Vec3>& x, double angle_deg,
+                    const PlateOptions& options) {
+  const double turn =
+      options.turn_deg ? *options.turn_deg : wall_turn_deg(mesh, x, options.most_turn_deg);
+  const ViewPose turned = view_pose(mesh.side, angle_deg, turn);
+  const double lean = options.lean_deg ? *options.lean_deg : muscle_lean_deg(mesh, x, turned);
+  const ViewPose upright = view_pose(mesh.side, angle_deg, turn, lean);
+  const double bend = options.bend_deg ? *options.bend_deg : wall_bend_deg(mesh, x, upright);
+  return view_pose(mesh.side, angle_deg, turn, lean, bend);
 }
 
 }  // namespace breast

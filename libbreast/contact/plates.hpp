@@ -86,12 +86,19 @@ struct PlateOptions {
   /// Distance from the most anterior chest-wall point to the edge of the image, where the rounded
   /// edge starts; instead of standoff, which also considers points of the cut.
   std::optional<double> image_edge;
+  /// If the rounded edges press on the chest wall instead of the breast (edge_carries_force), the plates are placed anew
+  /// farther from it, up to this image_edge; absent: they are not.
+  std::optional<double> farthest_image_edge;
   /// Angle by which the edge is turned towards the breast's side about the patient's long axis; if
-  /// absent, the edge is made parallel to the chest wall behind the breast.
+  /// absent, the edge is made parallel to the chest wall behind the breast, but turned by at most `most_turn_deg`.
   std::optional<double> turn_deg = 0;
+  double most_turn_deg = 45;
   /// Angle by which the edge is turned about the beam, with its upper end backwards; if absent,
   /// the edge is inclined so that an oblique image shows the muscle from above.
   std::optional<double> lean_deg = 0;
+  /// Angle by which the patient bends forwards; if absent, the plates' edges lie equally far from a wall that recedes
+  /// upwards.
+  std::optional<double> bend_deg = 0;
   double edge_radius = 15;
   double tilt_deg = 0;  ///< of the paddle about the lateral axis; positive narrows the gap
                         ///< anteriorly
@@ -135,12 +142,19 @@ struct PlatePair {
 PlatePair paddle_and_detector(const Plate& plate);
 
 /// Angle (degrees) that makes the plates' edge parallel to the chest wall behind the breast: that
-/// of the mean normal of the wall in the shape `x`, at most 45 in either direction.
-double wall_turn_deg(const HexTopology& mesh, const std::vector<Vec3>& x);
+/// of the mean normal of the wall in the shape `x`, at most `most` in either direction.
+double wall_turn_deg(const HexTopology& mesh, const std::vector<Vec3>& x, double most);
 /// Angle (degrees, 0 to 25) about the beam of `pose` by which the edge of oblique plates leans: 4
 /// degrees more than if it were parallel to the chest wall, so that its upper end lies in the axilla
 /// behind the muscle and its lower end in front of the fold. 0 for a beam from head to foot.
 double muscle_lean_deg(const HexTopology& mesh, const std::vector<Vec3>& x, const ViewPose& pose);
+
+/// Angle (degrees, 0 to 20) by which the patient bends forwards so that neither plate's edge lies nearer to her chest
+/// wall in the shape `x` than the other's; `pose` is hers while she stands upright.
+double wall_bend_deg(const HexTopology& mesh, const std::vector<Vec3>& x, const ViewPose& pose);
+/// The pose with the angles that `options` state, the others chosen for the shape `x`.
+ViewPose place_pose(const HexTopology& mesh, const std::vector<Vec3>& x, double angle_deg,
+                    const PlateOptions& options);
 
 /// Places the plates about the shape `x` (node positions of the gravity-loaded body, mm, LPS). They
 /// close on the mid-plane of mesh.reference within the same footprint: in the upright posture the

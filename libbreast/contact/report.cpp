@@ -22,8 +22,10 @@ void write_report(const CompressionResult& summary, const HexMesh& mesh,
   report.set("standoff_mm", contact.standoff_mm);
   const PlateRecord& detector = contact.plates[1];
   report.set("edge_at_mm", detector.origin.dot(detector.anterior));
+  report.set("placements", summary.placements);
   report.set("turn_deg", contact.turn_deg);
   report.set("lean_deg", contact.lean_deg);
+  report.set("bend_deg", contact.bend_deg);
   report.set("contact_points", contact.surface_stiffness > 0 ? "surface" : "nodes");
   if (contact.surface_stiffness > 0) {
     report.set("surface_stiffness_Pa_per_mm", contact.surface_stiffness);

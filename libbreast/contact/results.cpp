@@ -128,6 +128,7 @@ ContactRecord record_of(const CompressionOptions& options, const CompressionResu
   record.angle_deg = options.angle_deg;
   record.turn_deg = result.pose.turn_deg;
   record.lean_deg = result.pose.lean_deg;
+  record.bend_deg = result.pose.bend_deg;
   record.ends_image = options.plates.image_edge.has_value();
   record.thickness_mm = plates.thickness();
   record.initial_thickness_mm = plates.initial_thickness;

@@ -128,7 +128,7 @@ Vec3 BandModel::moved(const HexTopology& mesh, const ImageFrame& frame, const Ve
     constexpr double step = 0.5;  // degrees
     const ViewPose& pose = frame.pose;
     const auto turned = [&](double by) {
-      return view_pose(mesh.side, pose.angle_deg + by, pose.turn_deg, pose.lean_deg);
+      return view_pose(mesh.side, pose.angle_deg + by, pose.turn_deg, pose.lean_deg, pose.bend_deg);
     };
     const ViewPose more = turned(step), less = turned(-step);
     const Vec3 from_centre = (at - centre) / (2 * step);

@@ -5,7 +5,8 @@ namespace breast {
 
 ViewPose compressed_pose(const HexMesh& mesh) {
   const ContactRecord& contact = *mesh.contact;
-  return view_pose(mesh.side, contact.angle_deg, contact.turn_deg, contact.lean_deg);
+  return view_pose(mesh.side, contact.angle_deg, contact.turn_deg, contact.lean_deg,
+                   contact.bend_deg);
 }
 
 }  // namespace breast

@@ -101,6 +101,7 @@ class Contact:
         angle_deg: beam angle from cranio-caudal, degrees.
         turn_deg: by which the plates' edge is turned about the patient's long axis, degrees.
         lean_deg: by which it is turned about the beam, with its upper end backwards, degrees.
+        bend_deg: by which the patient bends forwards, degrees.
         thickness_mm, initial_thickness_mm: gap between the flats now, and extent of the breast before.
         reduction_percent, standoff_mm: see the tool compress.
         ends_image: whether the image ends at the plates' edge.
@@ -115,6 +116,7 @@ class Contact:
     angle_deg: float
     turn_deg: float
     lean_deg: float
+    bend_deg: float
     thickness_mm: float
     initial_thickness_mm: float
     reduction_percent: float
@@ -169,7 +171,7 @@ def read_contact(document: Document, nodes: int) -> Contact | None:
         raise document.refuse(f"attribute {group}@surface_stiffness is {stiffness} Pa/mm, must be 0 or more")
     return Contact(
         document.text(f"{group}@view", ("CC", "MLO", "ML")), number("angle_deg"), number("turn_deg"), number("lean_deg"),
-        number("thickness_mm"), number("initial_thickness_mm"), number("reduction_percent"), number("standoff_mm"),
+        number("bend_deg"), number("thickness_mm"), number("initial_thickness_mm"), number("reduction_percent"), number("standoff_mm"),
         number("ends_image") != 0, share, stiffness, _plates(document), _friction(document, nodes), _path(document))
 
 

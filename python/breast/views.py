@@ -35,24 +35,26 @@ class ImageFrame:
     width: float
     height: float
 
-def view_axes(side: str, angle_deg: float, turn_deg: float, lean_deg: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def view_axes(side: str, angle_deg: float, turn_deg: float, lean_deg: float,
+              bend_deg: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """n, e_u and e_v: the beam at an angle from cranio-caudal, both turned about the patient's long axis, and e_u leaning about
-    the beam with its upper end backwards."""
+    the beam with its upper end backwards; finally both turned about e_v, of a patient who bends forwards."""
     sign = lateral_sign(side)
-    theta, lean, turn = (np.deg2rad(a) for a in (angle_deg, lean_deg, sign * turn_deg))
+    theta, lean, bend, turn = (np.deg2rad(a) for a in (angle_deg, lean_deg, bend_deg, sign * turn_deg))
     turned = np.array([[np.cos(turn), -np.sin(turn), 0], [np.sin(turn), np.cos(turn), 0], [0, 0, 1]])
     n = turned @ [sign * np.sin(theta), 0, -np.cos(theta)]
     axis = turned @ [0, -1, 0]
     upwards = sign * np.cross(axis, n)
     e_u = np.cos(lean) * axis + np.sin(lean) * upwards
-    return n, e_u, np.cross(n, e_u)
+    e_v = np.cross(n, e_u)
+    return np.cos(bend) * n + np.sin(bend) * e_u, np.cos(bend) * e_u - np.sin(bend) * n, e_v
 
 def image_frame(state: State) -> ImageFrame:
     """Where the image of a compressed breast lies, as project-mammogram frames it. Raises BreastError without plates."""
     contact = state.contact
     if contact is None:
         raise BreastError("has no compression record", state.file, "run compress first")
-    n, e_u, e_v = view_axes(state.side, contact.angle_deg, contact.turn_deg, contact.lean_deg)
+    n, e_u, e_v = view_axes(state.side, contact.angle_deg, contact.turn_deg, contact.lean_deg, contact.bend_deg)
     plates = list(contact.plates.values())
     along, across = state.points @ e_u, state.points @ e_v
     if contact.ends_image:

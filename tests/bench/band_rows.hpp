@@ -25,8 +25,8 @@ inline double prior(const std::string& name, double spread) {
 /// (u,v) in the base image of a place seen by a detector that has turned about `centre` (band.hpp).
 inline Vec2 seen(const Vec3& x, const Vec3& centre, const ImageFrame& base, Side side,
                  double turned) {
-  const ViewPose pose =
-      view_pose(side, base.pose.angle_deg + turned, base.pose.turn_deg, base.pose.lean_deg);
+  const ViewPose pose = view_pose(side, base.pose.angle_deg + turned, base.pose.turn_deg,
+                                  base.pose.lean_deg, base.pose.bend_deg);
   return base.pose.project(centre) + Vec2((x - centre).dot(pose.e_u), (x - centre).dot(pose.e_v));
 }
 

@@ -170,8 +170,8 @@ TEST(Judgement, ForceOfTheClinicIsLessForASmallBreast) {
     return stops[0].value;
   };
   EXPECT_EQ(force(150), 110);
-  EXPECT_NEAR(force(60), 90, 1e-12);
-  EXPECT_EQ(force(20), 50);
+  EXPECT_NEAR(force(20), 80, 1e-12);
+  EXPECT_EQ(force(10), 50);
   EXPECT_EQ(least_pressed_cm2(50), 25);
   EXPECT_NEAR(least_pressed_cm2(100), 40, 1e-12);
 }

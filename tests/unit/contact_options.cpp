@@ -35,10 +35,14 @@ TEST(ContactOptions, AnImageEdgeBringsTheClinicsPlates) {
   EXPECT_EQ(cc.plates.edge_radius, 3);
   EXPECT_FALSE(cc.plates.turn_deg);
   EXPECT_FALSE(cc.plates.lean_deg);
+  EXPECT_FALSE(cc.plates.bend_deg);
+  EXPECT_EQ(cc.plates.most_turn_deg, 15);
   EXPECT_EQ(cc.plates.image_edge, 5);
-  EXPECT_EQ(cc.friction, 0.15);
+  EXPECT_EQ(cc.plates.farthest_image_edge, 10);
+  EXPECT_EQ(cc.friction, 0.3);
   EXPECT_EQ(cc.pull_N, 30);
   choices.view = "MLO";
+  EXPECT_EQ(options_of(choices).plates.bend_deg, 0);
   EXPECT_EQ(options_of(choices).plates.image_edge, 0);
   // A layer of muscle is in the oblique image.
   EXPECT_EQ(compression_options(choices, Vec3::Zero(), {.muscle_mm = 10}).plates.image_edge, -12.5);
@@ -61,6 +65,7 @@ TEST(ContactOptions, WhatIsGivenWins) {
   choices.image_edge = "7.5";
   choices.turn = "-10";
   choices.lean = "6";
+  choices.bend = "4";
   choices.edge_radius = 5;
   choices.friction = 0;
   choices.positioning = "hanging";
@@ -71,7 +76,9 @@ TEST(ContactOptions, WhatIsGivenWins) {
   EXPECT_EQ(options.plates.edge_radius, 5);
   EXPECT_EQ(options.plates.turn_deg, -10);
   EXPECT_EQ(options.plates.lean_deg, 6);
+  EXPECT_EQ(options.plates.bend_deg, 4);
   EXPECT_EQ(options.plates.image_edge, 7.5);
+  EXPECT_FALSE(options.plates.farthest_image_edge) << "a stated place stays";
   EXPECT_EQ(options.friction, 0);
   // Nothing would hold a breast that was pulled.
   EXPECT_EQ(options.pull_N, 0);

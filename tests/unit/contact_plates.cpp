@@ -153,7 +153,8 @@ TEST(Plates, TheEdgeOfTheImageLiesAlongTheWall) {
     const Eigen::AngleAxisd turned(turn, Vec3::UnitZ());
     for (Vec3& x : mesh.points) x = turned * x;
     mesh.reference = mesh.imaged = mesh.points;
-    EXPECT_NEAR(wall_turn_deg(mesh, mesh.points), angle, 1e-9);
+    EXPECT_NEAR(wall_turn_deg(mesh, mesh.points, 45), angle, 1e-9);
+    EXPECT_NEAR(wall_turn_deg(mesh, mesh.points, 15), 15, 1e-9);
     const ViewPose pose = view_pose(side, 45, angle);
     EXPECT_LT((pose.e_u - turned * Vec3(0, -1, 0)).norm(), 1e-12);
     EXPECT_NEAR(pose.n.dot(pose.e_u), 0, 1e-12);
@@ -194,13 +195,42 @@ TEST(Plates, TheEdgeOfCraniocaudalPlatesDoesNotLean) {
   EXPECT_EQ(muscle_lean_deg(mesh, mesh.points, view_pose(mesh.side, 0)), 0);
 }
 
+// The same block: between plates that press from head to foot the patient bends forwards, and gravity turns with her.
+TEST(Plates, APatientWhoseChestWallRecedesUpwardsBendsForwardsAlongIt) {
+  for (const Side side : {Side::left, Side::right}) {
+    SCOPED_TRACE(side_name(side));
+    HexMesh mesh = fixtures::standing_block({50, 60, 40}, {5, 6, 4});
+    mesh.side = side;
+    const auto tip = [&mesh](double degrees) {
+      for (Vec3& x : mesh.points)
+        x = Eigen::AngleAxisd(degrees * std::numbers::pi / 180, -Vec3::UnitX()) * x;
+      mesh.reference = mesh.imaged = mesh.points;
+    };
+    tip(10);
+    PlateOptions options;
+    options.bend_deg = std::nullopt;
+    options.image_edge = 5;
+    const ViewPose pose = place_pose(mesh, mesh.points, 0, options);
+    EXPECT_NEAR(pose.bend_deg, 10, 1e-9);
+    EXPECT_GT(pose.e_u.z(), 0);
+    EXPECT_NEAR(pose.n.dot(pose.e_u), 0, 1e-12);
+    EXPECT_LT((pose.e_v - pose.n.cross(pose.e_u)).norm(), 1e-12);
+    EXPECT_LT((turned_by_bend(pose, {0, 0, -1}) - pose.n).norm(), 1e-12);
+    EXPECT_NEAR(place_plates(mesh, mesh.points, pose, options).standoff, 5, 1e-9);
+    tip(20);
+    EXPECT_EQ(place_pose(mesh, mesh.points, 0, options).bend_deg, 20) << "at most";
+    tip(-50);
+    EXPECT_EQ(place_pose(mesh, mesh.points, 0, options).bend_deg, 0) << "nobody bends backwards";
+  }
+}
+
 // The beam's direction and the image's axes as functions of the angle have one axis of rotation.
 TEST(Plates, ALargerAngleTurnsLeaningPlatesAboutTheAxisOfTheirPose) {
   for (const Side side : {Side::left, Side::right}) {
-    const ViewPose pose = view_pose(side, 45, 20, 12);
+    const ViewPose pose = view_pose(side, 45, 20, 12, 7);
     constexpr double step = 1e-4;
     const Vec3 turn = lateral_sign(side) * step * std::numbers::pi / 180 * pose.angle_axis;
-    const ViewPose more = view_pose(side, 45 + step, 20, 12);
+    const ViewPose more = view_pose(side, 45 + step, 20, 12, 7);
     EXPECT_LT((more.n - pose.n - turn.cross(pose.n)).norm(), 1e-11);
     EXPECT_LT((more.e_u - pose.e_u - turn.cross(pose.e_u)).norm(), 1e-11);
     EXPECT_LT((more.e_v - pose.e_v - turn.cross(pose.e_v)).norm(), 1e-11);

@@ -52,8 +52,8 @@ struct Outcome {
 // Both plates turned by `degrees` of beam angle about their mid-line.
 PlatePair turned(PlatePair plates, const HexMesh& mesh, double degrees) {
   const ContactRecord& contact = *mesh.contact;
-  const ViewPose pose =
-      view_pose(mesh.side, contact.angle_deg + degrees, contact.turn_deg, contact.lean_deg);
+  const ViewPose pose = view_pose(mesh.side, contact.angle_deg + degrees, contact.turn_deg,
+                                  contact.lean_deg, contact.bend_deg);
   const Vec3 centre = 0.5 * (plates.paddle.origin() + plates.detector.origin());
   for (Plate* plate : {&plates.paddle, &plates.detector}) {
     const Vec3 arm = plate->origin() - centre;

@@ -59,6 +59,7 @@ constexpr ContactNumber contact_numbers[] = {
     {"paddle_share", &ContactRecord::paddle_share},
     {"turn_deg", &ContactRecord::turn_deg},
     {"lean_deg", &ContactRecord::lean_deg},
+    {"bend_deg", &ContactRecord::bend_deg},
     {"surface_stiffness", &ContactRecord::surface_stiffness}};
 
 std::vector<FrictionRecord> get_friction(Fields& fields) {
