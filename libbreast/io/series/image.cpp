@@ -154,6 +154,9 @@ DicomImage image_of(const fs::path& file, const DicomObject& object, int frame) 
   image.encapsulated = object.pixels->encapsulated;
   image.study_uid = elements.value("0020|000d");
   image.series_uid = elements.value("0020|000e");
+  image.frame_of_reference_uid = elements.value("0020|0052");
+  image.sop_class = elements.value("0008|0016");
+  image.instance_uid = elements.value("0008|0018");
   image.series_number = std::atoi(elements.value("0020|0011").c_str());
   image.instance_number = std::atoi(elements.value("0020|0013").c_str());
   image.columns = std::atoi(elements.value("0028|0011").c_str());

@@ -29,7 +29,7 @@ enum class Mark {
 struct DicomImage {
   std::filesystem::path file;
   int frame = 0;  ///< of the file, from 0
-  std::string study_uid, series_uid;
+  std::string study_uid, series_uid, frame_of_reference_uid, sop_class, instance_uid;
   int series_number = 0, instance_number = 0;
   int columns = 0, rows = 0;
   std::string patient_id, patient_name;

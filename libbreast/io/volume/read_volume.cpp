@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "core/error.hpp"
 #include "core/guarded_child.hpp"
@@ -118,11 +119,23 @@ bool is_dicom_file(const fs::path& file) {
   return !is_volume_name(file) && read_dicom_object(file, object);
 }
 
+DicomReference reference_to(const DicomStack& stack) {
+  const DicomImage& first = stack.first();
+  DicomReference reference{
+      first.study_uid, first.series_uid, first.frame_of_reference_uid, first.sop_class, {}};
+  std::set<std::string> known;
+  for (const DicomImage& slice : stack.slices)  // frames of one file have its UID
+    if (!slice.instance_uid.empty() && known.insert(slice.instance_uid).second)
+      reference.instance_uids.push_back(slice.instance_uid);
+  return reference;
+}
+
 Volume<float> read_folder(const fs::path& folder, const ScanChoice& choice, VolumeSource& source) {
   ChosenStack chosen = chosen_stack(folder, choice);
   source.description = message("DICOM series ", chosen.number, ": ", chosen.stack.label());
   source.patient_position = chosen.stack.patient_position;
   source.patient_id = chosen.stack.first().patient_id;
+  source.dicom = reference_to(chosen.stack);
   source.contrast = contrast_name(chosen.stack.first().contrast);
   source.remarks = std::move(chosen.remarks);
   return read_stack(chosen.stack);
