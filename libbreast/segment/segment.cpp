@@ -261,12 +261,11 @@ MisleadingGland misleading_gland(const Work& work) {
   return gland;
 }
 
-/// What the user says of the wall, and muscle that lies on it, unless `layered` says that other tissue looks like it.
-void complete_wall(Work& work, const SegmentOptions& options, Progress& progress,
-                   bool layered = false) {
+/// What the user says of the wall, and muscle that lies on it.
+void complete_wall(Work& work, const SegmentOptions& options, Progress& progress) {
   progress.update("chest wall", 0.5, "muscle on it");
-  if (!corrected_by_hand(options)) refine_bias(work);
-  if (!corrected_by_hand(options) && !layered) {
+  if (!corrected_by_hand(options)) {
+    refine_bias(work);
     // As suppressed fat is shown, noise turns mixtures of it with skin into muscle.
     const bool suppressed = options.contrast == Contrast::fat_suppressed;
     include_front_muscle(work.wall, work.ratio, suppressed ? &work.skin_distance : nullptr,
@@ -388,8 +387,7 @@ std::string read_suppressed(Work& work, Images& images, Segmentation& result,
   result.muscle_over_fat = fat.muscle.median;
   result.muscle_over_fat_low = fat.muscle.low;
   result.contrast = contrast_below_skin(work);
-  // Fat between suppressed and not is as bright as muscle with fat in it, and may run to the side as that does.
-  complete_wall(work, options, progress, fat.failed_ml > 0);
+  complete_wall(work, options, progress);
   complete_bias(work, result, options);
   show_gland(work, scan, images, fat);
   result.unsuppressed_ml = fat.failed_ml;
