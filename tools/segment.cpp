@@ -50,7 +50,7 @@ void declare(Tool& tool, Choices& c) {
       c.labels, "LABELS.vtkhdf",
       "tissue labels of the chosen breast; for other programs, a .nrrd, .nii, .nii.gz or .mha file "
       "holds the tissue codes only, a .seg.nrrd file is a segmentation of 3D Slicer, and a .dcm file is a "
-      "DICOM segmentation without patient data",
+      "DICOM segmentation, which names no patient but, of a DICOM scan, its study and series",
       {".nrrd", ".nii", ".nii.gz", ".mha", ".dcm"});
   tool.choice(c.side, "--side", {"left", "right"}, "the patient's left or right breast")
       .required("--side");
@@ -145,6 +145,22 @@ Contrast contrast_from_name(const std::string& name) {
   for (const Contrast one : {Contrast::fat_bright, Contrast::fat_suppressed, Contrast::dixon})
     if (name == contrast_name(one)) return one;
   return Contrast::automatic;
+}
+
+/// Refuses what its header says is no scan with bright fat, unless the user says more: T2, parts of a Dixon scan, and
+/// what is computed from scans.
+void check_stated_contrast(const Choices& c, const VolumeSource& source) {
+  const std::string& stated = source.contrast;
+  const bool may_be = stated.empty() || stated == "T1" || stated == "in phase" ||
+                      stated == "not stated" || stated == "T1 fat-suppressed";
+  if (may_be || c.contrast != "auto" || !c.fat.empty() || !c.also.empty() || !c.wall.empty())
+    return;
+  throw input_error(
+      c.scan.string(), ": its header states '", stated,
+      "', in which fat is not the one bright tissue that shows the chest wall: give a T1 "
+      "series, as MR or beside this one as --also",
+      stated == "water" ? ", or the fat image as --fat" : "",
+      ", or say that fat is bright (--contrast fat-bright)");
 }
 
 /// One sentence on what was found to be bright, with the numbers it follows from.
@@ -291,6 +307,7 @@ void run_segment(const Choices& c, Run& run) {
     return read_volume(c.scan, ScanChoice(c.series, options.side), &source);
   }();
   for (const std::string& remark : source.remarks) run.remark(remark);
+  check_stated_contrast(c, source);
   check_posture(source.patient_position, c.posture, run);
   std::vector<Run::Input> inputs{{c.scan, source.content_sha256, nullptr}};
   Origin mr = origin_of_scan(c.scan, source.content_sha256, scan.grid);
@@ -335,7 +352,7 @@ void run_segment(const Choices& c, Run& run) {
   if (!c.points.empty()) write_surface(c.points, result.points);
   if (!c.measures.empty()) write_table(c.measures, measures);
   if (is_segmentation_name(c.labels)) {
-    write_segmentation(c.labels, result.labels);
+    write_segmentation(c.labels, result.labels, source.dicom);
   } else if (is_volume_name(c.labels)) {
     Volume<std::uint8_t> codes(result.labels.grid);
     codes.voxels = result.labels.tissue;

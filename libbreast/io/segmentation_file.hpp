@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "image/segments.hpp"
+#include "io/volume_file.hpp"
 
 namespace breast {
 
@@ -21,6 +22,7 @@ SegmentedVolume read_segmentation(const std::filesystem::path& file);
 
 /// Writes the tissues that occur, with names, colours and tags (segments_of), in LPS and atomically; under a
 /// name that ends with .dcm as write_dicom_segmentation does.
-void write_segmentation(const std::filesystem::path& file, const LabelVolume& labels);
+void write_segmentation(const std::filesystem::path& file, const LabelVolume& labels,
+                        const DicomReference& scan = {});
 
 }  // namespace breast

@@ -14,6 +14,13 @@
 
 namespace breast {
 
+/// A DICOM scan by its UIDs, for what is made of it to refer to.
+struct DicomReference {
+  std::string study_uid, series_uid, frame_of_reference_uid, sop_class;
+  std::vector<std::string>
+      instance_uids;  ///< of its files, each once; empty if it is no DICOM scan
+};
+
 /// The source of a volume, as described in messages.
 struct VolumeSource {
   std::string
@@ -25,6 +32,7 @@ struct VolumeSource {
       contrast;  ///< of a DICOM series, as its header states it: "T1", "water"; "not stated"
   /// What was taken and what was passed over in a DICOM folder, a line each.
   std::vector<std::string> remarks;
+  DicomReference dicom;
   std::string content_sha256;  ///< of grid and voxels, the same for NRRD and DICOM of one scan
 };
 

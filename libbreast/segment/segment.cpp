@@ -271,7 +271,8 @@ void complete_wall(Work& work, const SegmentOptions& options, Progress& progress
     include_front_muscle(work.wall, work.ratio, suppressed ? &work.skin_distance : nullptr,
                          work.domain,
                          find_extent(work.wall, work.domain, work.torso, work.skin_distance,
-                                     options.side, options.posture));
+                                     options.side, options.posture),
+                         work.torso.cleft);
   }
   correct_wall(work, options);
 }
@@ -481,6 +482,14 @@ void find_wall_on_either(Work& work, Images& images, Segmentation& result,
 /// Where a wall is held by the limits of the search alone, or what lies behind is as bright as fat
 /// (muscle has 0.2 to 0.4 of it in T1).
 void refuse_without_wall(const Segmentation& result) {
+  // A prone breast hangs in front of the sternum: a wall that leaves out a third of that runs through the breast.
+  constexpr double most_left_out = 30;  // %
+  if (result.posture == Posture::prone && result.front_left_out_percent > most_left_out) {
+    throw input_error(
+        "the chest wall was found inside the breast: ", std::lround(result.front_left_out_percent),
+        " % of the body in front of the skin over the sternum is not labelled breast (at most ",
+        most_left_out, "): give --chest-wall, or a scan that shows it (--also)");
+  }
   constexpr double least_confidence = 0.15, brightest_muscle = 0.6;
   if (result.wall_confidence_mean >= least_confidence && result.muscle_ratio < brightest_muscle)
     return;

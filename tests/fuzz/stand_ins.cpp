@@ -24,7 +24,8 @@ bool is_dicom_segmentation(const std::filesystem::path&) {
 SegmentedVolume read_dicom_segmentation(const std::filesystem::path&) {
   throw input_error("no DICOM here");
 }
-void write_dicom_segmentation(const std::filesystem::path&, const LabelVolume&) {}
+void write_dicom_segmentation(const std::filesystem::path&, const LabelVolume&,
+                              const DicomReference&) {}
 
 // export/deck/scene.cpp, which needs the mechanics: only applying a result asks for it.
 std::vector<int> deck_nodes(const HexMesh&) {

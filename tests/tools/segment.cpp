@@ -82,6 +82,16 @@ TEST_F(SegmentFolder, SeriesAreListedAndTheTakenOneIsNamed) {
   EXPECT_FALSE(fs::exists(folder_ / "out.vtkhdf"));
 }
 
+TEST_F(SegmentFolder, WhatItsHeaderCallsT2IsRefusedByName) {
+  write_dicom_series(folder_ / "t2", scan(), "T2 tse");
+  const ToolResult refused = segment("t2", {});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_EQ(refused.error_lines(), 1) << refused.err;
+  for (const char* word : {"'T2'", "--also", "--contrast fat-bright"})
+    EXPECT_NE(refused.err.find(word), std::string::npos) << word << " in " << refused.err;
+  EXPECT_EQ(segment("t2", {"--contrast", "fat-bright"}).exit_code, 0);
+}
+
 // The scanner's record of the posture is the only one that a scan carries.
 TEST_F(SegmentFolder, ASupineSeriesIsNotTakenForAProneOneWithoutAWarning) {
   write_dicom_series(folder_ / "supine", scan(), "T1 supine");

@@ -13,6 +13,7 @@
 #include "fixtures/samples.hpp"
 #include "fixtures/scratch_folder.hpp"
 #include "io/dicom/dataset.hpp"
+#include "io/dicom/header.hpp"
 #include "io/segmentation_file.hpp"
 #include "io/series/segmentation.hpp"
 
@@ -208,7 +209,16 @@ TEST(DicomSegmentation, WhatIsWrittenReadsBackAndPassesTheValidator) {
   for (std::uint8_t& tissue : labels.tissue)  // segments are numbered without a gap
     if (tissue == std::uint8_t(Tissue::fibroglandular)) tissue = std::uint8_t(Tissue::fat);
   const auto file = folder / "labels.dcm", log = folder / "verdict.txt";
-  write_dicom_segmentation(file, labels);
+  write_dicom_segmentation(
+      file, labels,
+      {"1.2.3.4", "1.2.3.4.5", "1.2.3.6", "1.2.840.10008.5.1.4.1.1.4", {"1.2.7", "1.2.8"}});
+  DicomHeader header;
+  ASSERT_TRUE(read_dicom_header(file, header));
+  EXPECT_EQ(text_of(header, "0020|000d"), "1.2.3.4");
+  EXPECT_EQ(text_of(header, "0020|0052"), "1.2.3.6");
+  const std::string bytes = read_text(file);  // series and instances to which it refers
+  for (const char* uid : {"1.2.3.4.5", "1.2.7", "1.2.8"})
+    EXPECT_NE(bytes.find(std::string(uid) + '\0'), std::string::npos) << uid;
   const LabelVolume back = labels_of(read_segmentation(file), {}, labels.side, "labels.dcm");
   ASSERT_EQ(back.grid.size[0], labels.grid.size[0]);
   // Slices without tissue at both ends are not in the object.

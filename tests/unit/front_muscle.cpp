@@ -40,7 +40,10 @@ struct FlatWall {
         for (int i = 0; i < grid.size[0]; ++i)
           skin_distance.at(i, j, k) = float(skin - j * grid.spacing[1]);
   }
-  double include() { return include_front_muscle(wall, ratio, &skin_distance, domain, extent); }
+  double include(double sternal_skin = 0) {
+    return include_front_muscle(wall, ratio, &skin_distance, domain, extent,
+                                std::vector<double>(std::size_t(ratio.grid.size[2]), sternal_skin));
+  }
   /// Between two places across (mm) and two depths.
   void fill(double from, double to, double front, double back, float value) {
     const Grid& grid = ratio.grid;
@@ -53,6 +56,13 @@ struct FlatWall {
   }
   double depth_at(double x, int slice = 15) const { return wall.depth.at(int(x / 1.5), slice); }
 };
+
+TEST(FrontMuscle, LayerDoesNotReachWhereTheBreastHangs) {
+  FlatWall flat;
+  flat.fill(90, 1000, 70, FlatWall::depth, 0.65f);
+  EXPECT_GT(flat.include(FlatWall::depth - 10), 0);
+  EXPECT_NEAR(flat.depth_at(120), FlatWall::depth - 10, 2);
+}
 
 TEST(FrontMuscle, LayerThatRunsToTheSideIsBehindTheWall) {
   FlatWall flat;

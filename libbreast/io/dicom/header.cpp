@@ -25,7 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t pixel_data = 0x7fe00010, per_frame_groups = 0x52009230;
+constexpr std::uint32_t pixel_data = 0x7fe00010, float_pixels = 0x7fe00008,
+                        double_pixels = 0x7fe00009, per_frame_groups = 0x52009230;
 // Sequences whose elements are kept: the codes of a mammogram's view and, within it, of the view's
 // modifiers (PS3.3 C.8.11.7); the functional groups of an enhanced object (C.7.6.16) and those of its
 // place, pixels, time, kind and contrast; the segments of a segmentation, and that of a frame (C.8.20).
@@ -211,6 +212,10 @@ class Walker {
     const std::uint32_t length = explicit_vr ? length_of(tag, name) : take<std::uint32_t>();
     const bool explicit_items = explicit_vr && name != "UN";
     if (tag == pixel_data && depth == 0) return pixels(length);
+    if ((tag == float_pixels || tag == double_pixels) && depth == 0)
+      throw input_error(file_.string(),
+                        ": its pixels are floating-point numbers, which are not "
+                        "read: export the series with integer values");
     if (kept && is_among(kept_sequences, tag)) {
       const std::string outer = path_;
       path_ += key_of(tag) + "/";

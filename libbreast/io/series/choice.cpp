@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/series/choice.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -23,6 +25,15 @@ struct Contents {
   std::string numbered(std::size_t index) const {
     return message(index + 1, " = ", stacks[index].label());
   }
+  /// With what tells series of the same label apart.
+  std::string described(std::size_t index) const {
+    const DicomImage& first = stacks[index].first();
+    Vec3::Index axis = 0;
+    first.row.cross(first.column).cwiseAbs().maxCoeff(&axis);
+    return message(numbered(index), " (",
+                   std::array{"sagittal", "coronal", "axial"}[std::size_t(axis)], ", ",
+                   first.file.lexically_relative(folder).string(), ")");
+  }
 };
 
 bool is_localiser(const DicomStack& stack) {
@@ -35,6 +46,7 @@ Contents contents_of(const fs::path& folder) {
   contents.found = find_images(folder);
   contents.stacks = stacks_of(std::move(contents.found.images), folder.string());
   for (DicomStack& stack : contents.stacks) {
+    contents.found.copies += stack.repeats;
     if (is_localiser(stack)) contents.localisers += int(stack.slices.size());
     // A file that is damaged before it names its series may belong to any.
     for (const auto& [series, text] : contents.found.damaged)
@@ -57,12 +69,14 @@ std::vector<std::string> passed_over(const Contents& contents) {
   return {contents.folder.string() + ": passed over: " + join(kinds, ", ")};
 }
 
+bool is_large(const DicomStack& stack) {
+  constexpr double least_mm = 60;
+  return stack.extent().minCoeff() >= least_mm;
+}
+
 /// The rule of series_rule, better first.
 bool better(const DicomStack& a, const DicomStack& b) {
-  constexpr double least_mm = 60, finer = 0.95;
-  const auto is_large = [&](const DicomStack& stack) {
-    return stack.extent().minCoeff() >= least_mm;
-  };
+  constexpr double finer = 0.95;
   if (is_large(a) != is_large(b)) return is_large(a);
   if (a.first().contrast != b.first().contrast) return a.first().contrast < b.first().contrast;
   if (a.time != b.time) return a.time < b.time;
@@ -76,13 +90,16 @@ bool shows(const DicomStack& stack, const std::optional<Side>& side) {
   return !side || !stack.side || *stack.side == *side;
 }
 
+bool is_candidate(const DicomStack& stack, const ScanChoice& choice) {
+  return stack.fault.empty() && !is_localiser(stack) && shows(stack, choice.side);
+}
+
 /// Indices of the stacks that none is better than; empty if none is a volume.
 std::vector<std::size_t> best_of(const Contents& contents, const ScanChoice& choice) {
   std::vector<std::size_t> best;
   const auto& stacks = contents.stacks;
   for (std::size_t n = 0; n < stacks.size(); ++n) {
-    if (!stacks[n].fault.empty() || is_localiser(stacks[n]) || !shows(stacks[n], choice.side))
-      continue;
+    if (!is_candidate(stacks[n], choice)) continue;
     if (!best.empty() && better(stacks[best.front()], stacks[n])) continue;
     if (!best.empty() && better(stacks[n], stacks[best.front()])) best.clear();
     best.push_back(n);
@@ -94,7 +111,7 @@ std::string listed(const Contents& contents, const std::vector<std::size_t>& whi
   constexpr std::size_t most = 8;
   std::vector<std::string> texts;
   for (const std::size_t n : which)
-    if (texts.size() < most) texts.push_back(contents.numbered(n));
+    if (texts.size() < most) texts.push_back(contents.described(n));
   return join(texts, "; ") + (which.size() > most ? "; ... (--list shows all)" : "");
 }
 
@@ -112,8 +129,16 @@ Error none_of(const Contents& contents, const ScanChoice& choice) {
     return input_error(contents.found.damaged.front().text);
   if (stacks.empty()) {
     const std::vector<std::string> rest = passed_over(contents);
-    return input_error(rest.empty() ? where + ": no DICOM images in this folder or below it"
-                                    : rest.front() + "; no image of a scan is left");
+    const std::vector<fs::path>& others = contents.found.others;
+    if (!rest.empty())
+      return input_error(rest.front(),
+                         "; no image of a scan is left: give the folder of its slices");
+    return input_error(where, ": no DICOM images in this folder or below it",
+                       others.empty()
+                           ? ""
+                           : message(", but ", others.size(), " other files such as ",
+                                     others.front().lexically_relative(contents.folder).string(),
+                                     ": unpack archives; name a .nrrd, .nii or .mha file itself"));
   }
   std::vector<std::string> faults;
   for (const DicomStack& stack : stacks)
@@ -149,9 +174,31 @@ std::size_t asked_for(const Contents& contents, const ScanChoice& choice) {
   return index;
 }
 
+/// Refuses to choose between examinations: of the scans that show as much as the best, all are of one patient and study.
+void check_one_examination(const Contents& contents, std::size_t best, const ScanChoice& choice) {
+  const DicomStack& taken = contents.stacks[best];
+  std::vector<std::size_t> rivals;
+  bool of_one = true;
+  for (std::size_t n = 0; n < contents.stacks.size(); ++n) {
+    const DicomStack& other = contents.stacks[n];
+    if (!is_candidate(other, choice) || is_large(other) != is_large(taken) ||
+        other.first().contrast != taken.first().contrast)
+      continue;
+    rivals.push_back(n);
+    of_one = of_one && other.first().patient_id == taken.first().patient_id &&
+             other.first().study_uid == taken.first().study_uid;
+  }
+  if (of_one) return;
+  throw input_error(contents.folder.string(),
+                    ": scans of several patients or examinations; give the folder of one, or "
+                    "choose with --series N: ",
+                    listed(contents, rivals));
+}
+
 std::size_t best_index(const Contents& contents, const ScanChoice& choice) {
   const std::vector<std::size_t> best = best_of(contents, choice);
   if (best.empty()) throw none_of(contents, choice);
+  check_one_examination(contents, best.front(), choice);
   if (best.size() > 1) {
     throw input_error(
         contents.folder.string(), ": ", best.size(), " of ", contents.stacks.size(),

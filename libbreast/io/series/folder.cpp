@@ -17,6 +17,8 @@ constexpr std::size_t most_files = 200000;
 
 std::vector<fs::path> files_below(const fs::path& folder, int& links) {
   std::vector<fs::path> files;
+  std::error_code none;
+  if (fs::is_regular_file(folder, none)) return {folder};
   const auto options = fs::directory_options::skip_permission_denied;
   for (auto entry = fs::recursive_directory_iterator(folder, options);
        entry != fs::recursive_directory_iterator(); ++entry) {
@@ -64,7 +66,10 @@ DicomFolder find_images(const fs::path& folder) {
     DicomObject object;
     try {
       if (!read_dicom_object(file, object)) {
-        if (file.extension() != ".dcm") continue;
+        if (file.extension() != ".dcm") {
+          found.others.push_back(file);
+          continue;
+        }
         throw input_error(file.string(), ": not a DICOM file (empty, truncated or foreign)");
       }
     } catch (const Error& error) {

@@ -46,7 +46,8 @@ std::vector<double> dicom_numbers(const std::string& text, std::size_t count) {
   for (const std::string& piece : split(text, '\\')) {
     char* end = nullptr;
     const double value = std::strtod(piece.c_str(), &end);
-    if (end == piece.c_str() || !std::isfinite(value)) return {};
+    // What follows a number, such as a decimal comma, would change it.
+    if (end == piece.c_str() || !trimmed(end).empty() || !std::isfinite(value)) return {};
     values.push_back(value);
   }
   if (values.size() != count) values.clear();
@@ -57,8 +58,10 @@ void take_geometry(const Elements& elements, DicomImage& image) {
   const auto position = dicom_numbers(elements.value("0020|9113", "0020|0032"), 3);
   const auto axes = dicom_numbers(elements.value("0020|9116", "0020|0037"), 6);
   if (position.empty() || axes.empty()) {
-    throw input_error(image.file.string(),
-                      ": no image position or orientation: not a slice of a volume");
+    throw input_error(
+        image.file.string(),
+        ": no image position or orientation (six and three numbers), so it is no slice "
+        "of a volume: export the original series, not pictures of it");
   }
   image.position = Vec3(position[0], position[1], position[2]);
   image.row = Vec3(axes[0], axes[1], axes[2]);
@@ -80,7 +83,8 @@ void take_spacing(const Elements& elements, DicomImage& image) {
     throw input_error(image.file.string(), ": pixel spacing ", value, " mm: must be ", least_mm,
                       " to ", most_mm, " mm");
   }
-  if (values.empty()) throw input_error(image.file.string(), ": states no pixel spacing");
+  if (values.empty())
+    throw input_error(image.file.string(), ": states no pixel spacing of two numbers");
   image.pixel = Vec2(values[0], values[1]);
 }
 
@@ -101,9 +105,11 @@ void take_scale(const Elements& elements, DicomImage& image) {
   }
 }
 
-void check_kind(const Elements& elements, const DicomObject& object, const fs::path& file) {
+void check_kind(const Elements& elements, const DicomObject& object, DicomImage& image) {
+  const fs::path& file = image.file;
   const std::string modality = elements.value("0008|0060"), kind = elements.value("0028|0004");
-  if (!modality.empty() && modality != "MR")
+  image.foreign = !modality.empty() && modality != "MR";
+  if (image.foreign)
     throw input_error(file.string(), ": modality ", modality, ": slices of MR are needed");
   check_grey(file, object.header);
   if (kind != "MONOCHROME2") {
@@ -146,7 +152,11 @@ DicomImage image_of(const fs::path& file, const DicomObject& object, int frame) 
   image.file = file;
   image.frame = frame;
   image.encapsulated = object.pixels->encapsulated;
+  image.study_uid = elements.value("0020|000d");
   image.series_uid = elements.value("0020|000e");
+  image.frame_of_reference_uid = elements.value("0020|0052");
+  image.sop_class = elements.value("0008|0016");
+  image.instance_uid = elements.value("0008|0018");
   image.series_number = std::atoi(elements.value("0020|0011").c_str());
   image.instance_number = std::atoi(elements.value("0020|0013").c_str());
   image.columns = std::atoi(elements.value("0028|0011").c_str());
@@ -159,7 +169,7 @@ DicomImage image_of(const fs::path& file, const DicomObject& object, int frame) 
   if (image.laterality.empty()) image.laterality = elements.value("0020|0060");
   take_marks(elements, image);
   try {
-    check_kind(elements, object, file);
+    check_kind(elements, object, image);
     take_geometry(elements, image);
     take_spacing(elements, image);
     take_scale(elements, image);

@@ -29,7 +29,7 @@ enum class Mark {
 struct DicomImage {
   std::filesystem::path file;
   int frame = 0;  ///< of the file, from 0
-  std::string series_uid;
+  std::string study_uid, series_uid, frame_of_reference_uid, sop_class, instance_uid;
   int series_number = 0, instance_number = 0;
   int columns = 0, rows = 0;
   std::string patient_id, patient_name;
@@ -37,6 +37,7 @@ struct DicomImage {
   std::string laterality;        ///< "L", "R" or ""
   bool localiser = false;        ///< by its image type
   bool encapsulated = false;     ///< its pixels are compressed
+  bool foreign = false;          ///< of another modality than MR
   Vec3 position{0, 0, 0};        ///< mm, centre of the first pixel, LPS
   Vec3 row{0, 0, 0}, column{0, 0, 0};
   Vec2 pixel{0, 0};  ///< mm between rows, between columns

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "image/segments.hpp"
+#include "io/volume_file.hpp"
 
 namespace breast {
 
@@ -18,8 +19,10 @@ bool is_dicom_segmentation(const std::filesystem::path& file);
 SegmentedVolume read_dicom_segmentation(const std::filesystem::path& file);
 
 /// Writes the tissues that occur as a BINARY object of one bit per pixel, atomically. Segments are numbered
-/// from 1 in the order of tissue codes, and labelled by their names (segments_of). It states no patient and
-/// no study, which no file of libbreast does. Throws Error (input) for slices beyond what DICOM allows.
-void write_dicom_segmentation(const std::filesystem::path& file, const LabelVolume& labels);
+/// from 1 in the order of tissue codes, and labelled by their names (segments_of). It names no patient, as no
+/// file of libbreast does; of a DICOM `scan` it has the study and the frame of reference, and refers to the
+/// series and its instances (PS3.3 C.12.2). Throws Error (input) for slices beyond what DICOM allows.
+void write_dicom_segmentation(const std::filesystem::path& file, const LabelVolume& labels,
+                              const DicomReference& scan = {});
 
 }  // namespace breast

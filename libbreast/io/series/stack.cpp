@@ -6,9 +6,11 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/statistics/percentile.hpp"
+#include "io/dicom/stored_values.hpp"
 #include "io/series/split.hpp"
 #include "io/volume/header.hpp"
 
@@ -62,6 +64,12 @@ void check_steps(const std::vector<DicomImage>& slices, const std::string& where
     }
     return true;
   }();
+  for (std::size_t n = 0; n < steps.size(); ++n) {
+    if (steps[n] > 1e-3) continue;
+    throw input_error(where, ": slices ", name_of(slices[n]), " and ", name_of(slices[n + 1]),
+                      " lie at one place and differ, and no time, kind or number divides their "
+                      "series into volumes: a slice is missing or duplicated; remove one of them");
+  }
   for (std::size_t n = 0; !even && n < steps.size(); ++n) {
     if (std::abs(steps[n] - usual) <= equal * usual) continue;
     throw input_error(where, ": slices ", name_of(slices[n]), " and ", name_of(slices[n + 1]),
@@ -74,7 +82,8 @@ void check_volume(const DicomStack& stack, const std::string& where) {
   const DicomImage& first = stack.first();
   check_alike(stack.slices);
   if (stack.slices.size() < 2) {
-    throw input_error(where, ": series ", stack.label(), ": a volume needs at least 2 slices");
+    throw input_error(where, ": series ", stack.label(),
+                      ": a volume needs at least 2 slices: give the folder of all its files");
   }
   check_voxel_count(first.file.string(),
                     double(first.columns) * first.rows * double(stack.slices.size()));
@@ -121,6 +130,46 @@ bool is_projection(const DicomImage& image) {
   return image.contrast == ScanContrast::projection;
 }
 
+/// What tells an image of a series from the others, but for its pixels.
+std::string identity_of(const DicomImage& image) {
+  constexpr double same_place_mm = 1e-3;
+  std::string text = message(image.instance_number, "/", image.frame);
+  for (const double at : image.position) text += message("/", std::llround(at / same_place_mm));
+  for (const std::string& mark : image.marks) text += "/" + mark;
+  return text;
+}
+
+/// In whatever transfer syntax; false for pixels that cannot be decoded.
+bool same_pixels(const std::filesystem::path& a, const std::filesystem::path& b) {
+  try {
+    DicomObject one, other;
+    return read_dicom_object(a, one) && read_dicom_object(b, other) && one.pixels && other.pixels &&
+           guarded_values(a, one) == guarded_values(b, other);
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+/// Takes out the images that another one repeats, as where an archive holds a series twice, under new UIDs or
+/// in two transfer syntaxes.
+void drop_repeats(DicomStack& stack) {
+  using Path = std::filesystem::path;
+  std::map<std::string, std::vector<Path>> seen;
+  std::map<std::pair<Path, Path>, bool> same;
+  std::erase_if(stack.slices, [&](const DicomImage& image) {
+    std::vector<Path>& files = seen[identity_of(image)];
+    const bool repeated = std::any_of(files.begin(), files.end(), [&](const Path& file) {
+      if (file == image.file) return false;
+      const auto [known, is_new] = same.try_emplace({file, image.file}, false);
+      if (is_new) known->second = same_pixels(file, image.file);
+      return known->second;
+    });
+    if (!repeated) files.push_back(image.file);
+    stack.repeats += repeated;
+    return repeated;
+  });
+}
+
 /// Images of one series, size and orientation. Those of a localiser, in several orientations, have one
 /// UID. Projections of a scan, which may be among its images, are no slices of it.
 std::vector<DicomStack> by_series(std::vector<DicomImage> images) {
@@ -131,13 +180,14 @@ std::vector<DicomStack> by_series(std::vector<DicomImage> images) {
                            message(image.series_uid, "/", image.rows, "x", image.columns)}];
     const auto alike = [&](const DicomStack& stack) {
       const DicomImage& first = stack.first();
-      return is_projection(first) == is_projection(image) &&
+      return is_projection(first) == is_projection(image) && first.foreign == image.foreign &&
              (first.row - image.row).norm() < one_orientation &&
              (first.column - image.column).norm() < one_orientation;
     };
     // An image whose place is unknown belongs to its series, which is then no volume.
     auto own = std::find_if(stacks.begin(), stacks.end(), alike);
-    if (own == stacks.end() && !stacks.empty() && !image.fault.empty()) own = stacks.begin();
+    if (own == stacks.end() && !stacks.empty() && !image.fault.empty() && !image.foreign)
+      own = stacks.begin();
     if (own == stacks.end()) own = stacks.insert(stacks.end(), DicomStack());
     own->slices.push_back(std::move(image));
   }
@@ -182,9 +232,13 @@ std::vector<DicomStack> stacks_of(std::vector<DicomImage> images, const std::str
       list.push_back(std::move(series));
       continue;
     }
+    drop_repeats(series);
+    const int repeats = std::exchange(series.repeats, 0);
+    const std::size_t first_part = list.size();
     for (DicomStack& part : by_time_and_kind(std::move(series))) {
       for (DicomStack& slab : by_slab(std::move(part))) list.push_back(std::move(slab));
     }
+    list[first_part].repeats = repeats;
   }
   for (DicomStack& stack : list) finish(stack, where);
   return list;

@@ -14,6 +14,7 @@ namespace breast {
 struct DicomStack {
   std::vector<DicomImage> slices;  ///< by position along the normal
   int files = 0;
+  int repeats = 0;               ///< images that another one repeats, of a series at its first part
   int time = 1, times = 1;       ///< the how manyeth of how many time points of its series
   int kind = 1, kinds = 1;       ///< and of how many kinds of image (parts of the signal, echoes)
   bool of_side = false;          ///< one of two sagittal slabs

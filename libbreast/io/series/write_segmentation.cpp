@@ -66,8 +66,12 @@ std::string bits_of(const LabelVolume& labels, const std::vector<Frame>& frames)
   return bytes;
 }
 
-/// No patient and no date: neither is in any file of libbreast.
-void add_identity(DatasetBuilder& set, const std::string& content) {
+/// No patient and no date: neither is in any file of libbreast. Archives show it with the scan because it is
+/// of its study.
+void add_identity(DatasetBuilder& set, const std::string& content, const DicomReference& scan) {
+  const auto uid = [&](const std::string& of_scan, const char* own) {
+    return of_scan.empty() ? uid_from(content + own) : of_scan;
+  };
   set.text(0x00080005, "CS", "ISO_IR 192")
       .text(0x00080008, "CS", "DERIVED\\PRIMARY")
       .text(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.66.4")
@@ -87,16 +91,52 @@ void add_identity(DatasetBuilder& set, const std::string& content) {
       .text(0x00100040, "CS", "")
       .text(0x00181000, "LO", "none")
       .text(0x00181020, "LO", "none")
-      .text(0x0020000d, "UI", uid_from(content + "/study"))
+      .text(0x0020000d, "UI", uid(scan.study_uid, "/study"))
       .text(0x0020000e, "UI", uid_from(content + "/series"))
       .text(0x00200010, "SH", "")
       .text(0x00200011, "IS", "1")
       .text(0x00200013, "IS", "1")
-      .text(0x00200052, "UI", uid_from(content + "/frame"))
+      .text(0x00200052, "UI", uid(scan.frame_of_reference_uid, "/frame"))
       .text(0x00201040, "LO", "")
       .text(0x00700080, "CS", "TISSUES")
       .text(0x00700081, "LO", "")
       .text(0x00700084, "PN", "");
+}
+
+bool can_be_referred_to(const DicomReference& scan) {
+  return !scan.study_uid.empty() && !scan.series_uid.empty() && !scan.sop_class.empty() &&
+         !scan.instance_uids.empty();
+}
+
+std::vector<DatasetBuilder> instances_of(const DicomReference& scan) {
+  std::vector<DatasetBuilder> instances;
+  for (const std::string& uid : scan.instance_uids) {
+    DatasetBuilder instance;
+    instance.text(0x00081150, "UI", scan.sop_class).text(0x00081155, "UI", uid);
+    instances.push_back(instance);
+  }
+  return instances;
+}
+
+/// From what all frames were made: every instance of the scan (PS3.3 C.7.6.16.2.6).
+void add_derivation(DatasetBuilder& shared, const DicomReference& scan) {
+  std::vector<DatasetBuilder> sources = instances_of(scan);
+  for (DatasetBuilder& source : sources)
+    source.sequence(0x0040a170,
+                    {code_item("121322", "DCM", "Source image for image processing operation")});
+  DatasetBuilder derivation;
+  derivation.sequence(0x00089215, {code_item("113076", "DCM", "Segmentation")})
+      .sequence(0x00082112, sources);
+  shared.sequence(0x00089124, {derivation});
+}
+
+/// Names the scan's series and its instances, by which archives and viewers find it.
+void add_reference(DatasetBuilder& set, const DicomReference& scan) {
+  if (!can_be_referred_to(scan)) return;
+  const std::vector<DatasetBuilder> instances = instances_of(scan);
+  DatasetBuilder series;
+  series.text(0x0020000e, "UI", scan.series_uid).sequence(0x0008114a, instances);
+  set.sequence(0x00081115, {series});
 }
 
 /// The kind of all segments: a tissue, which the label names.
@@ -133,7 +173,8 @@ void add_dimensions(DatasetBuilder& set, const std::string& content) {
   set.sequence(0x00209221, {organization}).sequence(0x00209222, {by_segment, by_place});
 }
 
-void add_frames(DatasetBuilder& set, const Grid& grid, const std::vector<Frame>& frames) {
+void add_frames(DatasetBuilder& set, const Grid& grid, const std::vector<Frame>& frames,
+                const DicomReference& scan) {
   DatasetBuilder axes, measures, shared;
   char pixel[40];
   std::snprintf(pixel, sizeof pixel, "%.10g\\%.10g", grid.spacing[1], grid.spacing[0]);
@@ -143,6 +184,7 @@ void add_frames(DatasetBuilder& set, const Grid& grid, const std::vector<Frame>&
       .number(0x00180088, grid.spacing[2])
       .text(0x00280030, "DS", pixel);
   shared.sequence(0x00209116, {axes}).sequence(0x00289110, {measures});
+  if (can_be_referred_to(scan)) add_derivation(shared, scan);
   std::vector<DatasetBuilder> items;
   for (const Frame& frame : frames) {
     DatasetBuilder content, place, segment, item;
@@ -162,7 +204,8 @@ void add_frames(DatasetBuilder& set, const Grid& grid, const std::vector<Frame>&
 
 }  // namespace
 
-void write_dicom_segmentation(const fs::path& file, const LabelVolume& labels) {
+void write_dicom_segmentation(const fs::path& file, const LabelVolume& labels,
+                              const DicomReference& scan) {
   const Grid& grid = labels.grid;
   if (grid.size[0] > 65535 || grid.size[1] > 65535) {
     throw input_error(file.string(), ": ", grid.size[0], " x ", grid.size[1],
@@ -170,12 +213,13 @@ void write_dicom_segmentation(const fs::path& file, const LabelVolume& labels) {
   }
   std::vector<Segment> segments = segments_of(labels);
   const std::vector<Frame> frames = frames_of(labels, segments);
-  const std::string content = content_of(labels);
+  const std::string content = content_of(labels) + scan.series_uid;
   DatasetBuilder set;
-  add_identity(set, content);
+  add_identity(set, content, scan);
+  add_reference(set, scan);
   add_segments(set, segments);
   add_dimensions(set, content);
-  add_frames(set, grid, frames);
+  add_frames(set, grid, frames, scan);
   set.unsigned_short(0x00280002, 1)
       .text(0x00280004, "CS", "MONOCHROME2")
       .unsigned_short(0x00280010, std::uint16_t(grid.size[1]))

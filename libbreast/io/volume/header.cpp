@@ -90,7 +90,8 @@ fs::path detached_data(const fs::path& header, const std::string& name) {
 void check_volume_sizes(const std::string& name, const std::vector<double>& sizes) {
   for (std::size_t d = 0; d < sizes.size(); ++d) {
     if (sizes[d] >= 1 && (d < 3 || sizes[d] == 1)) continue;
-    throw input_error(name, ": size ", sizes[d], " along axis ", d, ": one 3-D volume is needed");
+    throw input_error(name, ": size ", sizes[d], " along axis ", d,
+                      ": one 3-D volume is needed; save one of them alone");
   }
   if (sizes.size() < 3) {
     throw input_error(name, ": ", sizes.size(), "-D image: a 3-D volume is needed");

@@ -140,6 +140,11 @@ void check_data(const fs::path& file, const MetaHeader& header, double needed) {
     throw input_error(file.string(),
                       ": its voxels are not the compressed data its header announces");
   }
+  if (local && packed.size() != 1) {  // MetaIO would look for them at the begin of the file
+    throw input_error(file.string(),
+                      ": states no CompressedDataSize, without which compressed voxels "
+                      "behind the header are not found: save the volume again");
+  }
   check_voxel_bytes(file.string(), content.bytes, needed);
 }
 

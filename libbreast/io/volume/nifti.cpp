@@ -270,7 +270,9 @@ Volume<float> read_nifti(const fs::path& file) {
   const std::string name = file.string();
   const std::vector<unsigned char> head = head_of(file);
   const auto header = NiftiHeader::of(head);
-  if (!header) throw input_error(name, ": not the NIfTI header of a single file");
+  if (!header)
+    throw input_error(
+        name, ": not the NIfTI header of a single file; convert a pair of .hdr and .img to .nii");
   const double needed = announced_bytes(name, *header);
   Volume<float> volume;
   volume.grid = stated_grid(name, *header);

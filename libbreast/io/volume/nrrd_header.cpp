@@ -161,12 +161,14 @@ Grid stated_grid(const fs::path& file, const NrrdHeader& header) {
                       "orientation (space: left-posterior-superior)");
   }
   const bool ras = space == "right-anterior-superior" || space == "ras";
-  if (!ras && space != "left-posterior-superior" && space != "lps") {
+  const bool las = space == "left-anterior-superior" || space == "las";
+  if (!ras && !las && space != "left-posterior-superior" && space != "lps") {
     throw input_error(file.string(), ": space '", space,
-                      "': left-posterior-superior or right-anterior-superior are read");
+                      "': left-posterior-superior, right-anterior-superior or "
+                      "left-anterior-superior are read");
   }
   const double mm = space_unit_mm(file, header.field("space units"));
-  const Vec3 to_lps = mm * (ras ? Vec3(-1, -1, 1) : Vec3(1, 1, 1));
+  const Vec3 to_lps = mm * Vec3(ras ? -1 : 1, ras || las ? -1 : 1, 1);
   const std::vector<Vec3> axes = vectors_of(file, header.field("space directions"));
   if (axes.size() != 3) {
     throw input_error(file.string(), ": ", axes.size(),
@@ -246,6 +248,11 @@ void check_data(const fs::path& file, const NrrdHeader& header, const Announced&
   const bool text = encoding == "text" || encoding == "txt" || encoding == "ascii";
   if (!gzip && !text && encoding != "raw") {
     throw input_error(file.string(), ": encoding '", encoding, "': raw, gzip and text are read");
+  }
+  if (!text && announced.bytes_each > 1 && header.field("endian").empty()) {
+    throw input_error(file.string(),
+                      ": states no endian, so the order of the bytes is unknown: save it "
+                      "with one (endian: little)");
   }
   const std::string detached = header.field("data file", "datafile");
   if (detached.starts_with("LIST") || detached.find('%') != std::string::npos) {

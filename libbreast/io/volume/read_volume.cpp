@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "core/error.hpp"
 #include "core/guarded_child.hpp"
@@ -67,7 +68,7 @@ Volume<float> read_single_file(const fs::path& file) {
   const auto io = image_io_for(file);
   if (!io) {
     throw input_error(file.string(), ": unknown file name extension; volumes are read from ",
-                      known_endings, " or a DICOM folder");
+                      known_endings, ", DICOM files or a folder of them; unpack archives first");
   }
   const bool meta = name.ends_with(".mha") || name.ends_with(".mhd");
   const Grid stated = meta ? meta_grid(file) : nrrd_grid(file);
@@ -87,7 +88,8 @@ void check_finite(const fs::path& file, const Volume<float>& volume) {
     if (std::isfinite(volume.voxels[n])) continue;
     const auto& size = volume.grid.size;
     throw input_error(file.string(), ": voxel (", n % size[0], ",", n / size[0] % size[1], ",",
-                      n / size[0] / size[1], ") is ", volume.voxels[n], ": must be finite");
+                      n / size[0] / size[1], ") is ", volume.voxels[n],
+                      ": must be finite; write 0 where nothing was measured");
   }
 }
 
@@ -111,11 +113,29 @@ std::string content_hash(const Volume<float>& volume) {
 
 namespace {
 
+/// Whether a file with an ending of no volume is DICOM: an enhanced object, or a slice.
+bool is_dicom_file(const fs::path& file) {
+  DicomObject object;
+  return !is_volume_name(file) && read_dicom_object(file, object);
+}
+
+DicomReference reference_to(const DicomStack& stack) {
+  const DicomImage& first = stack.first();
+  DicomReference reference{
+      first.study_uid, first.series_uid, first.frame_of_reference_uid, first.sop_class, {}};
+  std::set<std::string> known;
+  for (const DicomImage& slice : stack.slices)  // frames of one file have its UID
+    if (!slice.instance_uid.empty() && known.insert(slice.instance_uid).second)
+      reference.instance_uids.push_back(slice.instance_uid);
+  return reference;
+}
+
 Volume<float> read_folder(const fs::path& folder, const ScanChoice& choice, VolumeSource& source) {
   ChosenStack chosen = chosen_stack(folder, choice);
   source.description = message("DICOM series ", chosen.number, ": ", chosen.stack.label());
   source.patient_position = chosen.stack.patient_position;
   source.patient_id = chosen.stack.first().patient_id;
+  source.dicom = reference_to(chosen.stack);
   source.contrast = contrast_name(chosen.stack.first().contrast);
   source.remarks = std::move(chosen.remarks);
   return read_stack(chosen.stack);
@@ -134,6 +154,8 @@ Volume<float> read_volume(const fs::path& file, const ScanChoice& choice, Volume
     volume = read_folder(file, choice, found);
   } else if (!fs::is_regular_file(file, none)) {
     throw input_error(file.string(), ": no such file");
+  } else if (is_dicom_file(file)) {
+    volume = read_folder(file, choice, found);
   } else {
     volume = read_single_file(file);
     found.description = file.extension().string().substr(1);
@@ -149,7 +171,7 @@ Volume<float> read_volume(const fs::path& file, const ScanChoice& choice, Volume
 Table list_series(const fs::path& folder, const ScanChoice& choice,
                   std::vector<std::string>& remarks) {
   std::error_code none;
-  if (!fs::is_directory(folder, none))
+  if (!fs::is_directory(folder, none) && !is_dicom_file(folder))
     throw input_error(folder.string(), ": is no folder of DICOM series");
   SeriesList list = list_stacks(folder, choice);
   remarks = std::move(list.remarks);

@@ -136,9 +136,10 @@ SegmentedVolume read_segmentation(const fs::path& file) {
   return segmentation;
 }
 
-void write_segmentation(const fs::path& file, const LabelVolume& labels) {
+void write_segmentation(const fs::path& file, const LabelVolume& labels,
+                        const DicomReference& scan) {
   if (lower_case(file.extension().string()) == ".dcm")
-    return write_dicom_segmentation(file, labels);
+    return write_dicom_segmentation(file, labels, scan);
   const std::string_view voxels(reinterpret_cast<const char*>(labels.tissue.data()),
                                 labels.tissue.size());
   const VoxelType bytes{"unsigned char", "MET_UCHAR", 2, 8};

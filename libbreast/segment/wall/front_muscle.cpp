@@ -68,15 +68,15 @@ Profile profile_along(const Volume<float>& ratio, const Volume<float>* skin_dist
 
 /// Costs of a layer of 0, 1, 2 ... voxels in front of the wall in a column; as many as may be.
 std::vector<float> layer_costs(const ChestWall& wall, const Volume<float>& ratio,
-                               const Volume<float>* skin_distance, const WallDomain& domain, int i,
-                               int k) {
+                               const Volume<float>* skin_distance, const WallDomain& domain,
+                               double sternal_skin, int i, int k) {
   const double step = ratio.grid.spacing[1], depth = wall.depth.at(i, k);
   std::vector<float> costs{0};
   const bool found = depth < domain.deepest.at(i, k) - clear_of_limit;
   if (!found || std::isnan(domain.skin.at(i, k))) return costs;
   const double oblique = obliqueness(wall, domain, ratio.grid.spacing[0], i, k);
-  const double front =
-      std::max(depth - thickest * oblique, domain.skin.at(i, k) + clear_of_skin * oblique);
+  const double front = std::max(
+      {depth - thickest * oblique, domain.skin.at(i, k) + clear_of_skin * oblique, sternal_skin});
   const Profile profile = profile_along(ratio, skin_distance, i, k);
   const double muscle = wall.muscle_ratio;
   double fat = 0;
@@ -97,6 +97,7 @@ std::vector<float> layer_costs(const ChestWall& wall, const Volume<float>& ratio
 /// Thickness of the layer (mm along the column) at the columns of the cut.
 std::vector<double> layer_thickness(const ChestWall& wall, const Volume<float>& ratio,
                                     const Volume<float>* skin_distance, const WallDomain& domain,
+                                    const std::vector<double>& sternal_skin,
                                     const Columns& columns) {
   const Vec3& spacing = ratio.grid.spacing;
   SurfaceProblem problem;
@@ -109,8 +110,9 @@ std::vector<double> layer_thickness(const ChestWall& wall, const Volume<float>& 
   problem.top.assign(std::size_t(columns.count) * columns.slices, 0);
   for (int k = 0; k < columns.slices; ++k) {
     for (int c = 0; c < columns.count; ++c) {
-      const std::vector<float> costs = layer_costs(wall, ratio, skin_distance, domain,
-                                                   columns.at(c, domain), columns.first_slice + k);
+      const std::vector<float> costs = layer_costs(
+          wall, ratio, skin_distance, domain, sternal_skin[std::size_t(columns.first_slice + k)],
+          columns.at(c, domain), columns.first_slice + k);
       problem.cost.insert(problem.cost.end(), costs.begin(), costs.end());
       problem.first.push_back(problem.cost.size());
     }
@@ -163,11 +165,12 @@ std::array<int, 2> slices_of(const BreastExtent& extent, const Grid& grid) {
 
 double include_front_muscle(ChestWall& wall, const Volume<float>& ratio,
                             const Volume<float>* skin_distance, const WallDomain& domain,
-                            const BreastExtent& extent) {
+                            const BreastExtent& extent, const std::vector<double>& sternal_skin) {
   const Vec3& spacing = ratio.grid.spacing;
   const auto [first_slice, last_slice] = slices_of(extent, ratio.grid);
   const Columns columns{CutColumns(domain, spacing[0]), first_slice, last_slice - first_slice + 1};
-  std::vector<double> thickness = layer_thickness(wall, ratio, skin_distance, domain, columns);
+  std::vector<double> thickness =
+      layer_thickness(wall, ratio, skin_distance, domain, sternal_skin, columns);
   keep_at_side(thickness, wall, domain, columns, spacing[0]);
   double moved = 0;
   for (int k = 0; k < columns.slices; ++k) {

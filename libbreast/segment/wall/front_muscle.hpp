@@ -3,6 +3,8 @@
 // major and latissimus dorsi.
 #pragma once
 
+#include <vector>
+
 #include "segment/wall/chest_wall.hpp"
 #include "segment/wall/extent.hpp"
 
@@ -18,10 +20,12 @@ namespace breast {
 /// belly and of the shoulder has other shapes, the wall stays: only the slices of `extent` are
 /// searched. `ratio` is intensity / bias. With `skin_distance` (mm, negative in the body; may be
 /// null) the layer does not reach into slices that run along the lower or upper skin of the breast,
-/// which is as dark: where the body ends in the next slice. Returns the volume that was moved behind
+/// which is as dark: where the body ends in the next slice. The layer does not reach in front of
+/// `sternal_skin`, the depth (mm) of the skin over the sternum in each slice: a prone breast hangs there, and
+/// dense gland that lies on the wall would be taken for muscle. Returns the volume that was moved behind
 /// the wall, ml.
 double include_front_muscle(ChestWall& wall, const Volume<float>& ratio,
                             const Volume<float>* skin_distance, const WallDomain& domain,
-                            const BreastExtent& extent);
+                            const BreastExtent& extent, const std::vector<double>& sternal_skin);
 
 }  // namespace breast
