@@ -161,9 +161,8 @@ WallDomain wall_domain(const Mask& body, const TorsoFront& torso, bool left, con
     const double end = last_seen_row(grid, seen, k) * grid.spacing[1];
     domain.nearest.push_back(std::max(0.0, torso.cleft[k] - 25));
     for (int i = 0; i < grid.size[0]; ++i) {
-      // The chest curves back at its sides.
       const double aside = std::abs(i - torso.midline) * grid.spacing[0];
-      const double depth = 60 + 0.5 * std::clamp(aside - 90, 0.0, 50.0);
+      const double depth = sought_behind + 0.5 * std::clamp(aside - curving_back, 0.0, 50.0);
       domain.deepest.at(i, k) = std::min(end, torso.cleft[k] + depth);
     }
   }
