@@ -68,7 +68,8 @@ double stand_upright(Images& images, const Volume<float>& scanned, const Mask& b
   // be: further ones are sought on the scan turned so far.
   const auto roll_after = [&](double roll) {
     if (roll == 0) return body_roll(body);
-    const Volume<float> turned = on_rolled_grid(scanned, rolled_grid(scanned.grid, roll));
+    Volume<float> turned = on_rolled_grid(scanned, rolled_grid(scanned.grid, roll));
+    end_at_front(turned, seen_from(images.tissue.grid, images.seen, turned.grid));
     return body_roll(find_body(turned, options.side, options.posture).mask);
   };
   double roll = 0;

@@ -115,7 +115,7 @@ MirrorImage mirror_image(const HeightField& skin, const Grid& grid) {
   const auto try_angle = [&](double degrees) {
     const HeightField upright = turned(skin, grid, degrees * std::numbers::pi / 180);
     const Mirror mirror = mirror_column(upright, grid.spacing[0], deepest);
-    if (mirror.cost < least.cost) least = mirror, best = degrees;
+    if (!mirror.at_end && mirror.cost < least.cost) least = mirror, best = degrees;
   };
   for (double degrees = -25; degrees <= 25; degrees += 5) try_angle(degrees);
   for (const double step : {2.5, 1.25}) {

@@ -131,18 +131,20 @@ HeightField confidence_of(const Volume<float>& ratio, const WallDomain& domain,
 
 namespace {
 
-/// The last row in which a voxel of any slice has data. One for all columns: of a body that is turned one way or
-/// the other, the same part shows the wall, and where a corner of the view is cut the wall is continued.
-int last_seen_row(const Grid& grid, const Mask& seen) {
-  int last = grid.size[1] - 1;
+/// The last row in which a voxel of slice k has data. One for all columns of a slice: of a body that is rolled one
+/// way or the other, the same part shows the wall, and where a corner of the view is cut the wall is continued. Not one
+/// for all slices: in a body that is pitched, the view ends elsewhere in each. That of the grid where the slice has none.
+int last_seen_row(const Grid& grid, const Mask& seen, int k) {
+  const int end = grid.size[1] - 1;
+  if (seen.voxels.empty()) return end;
   const auto in_row = [&](int j) {
-    for (int k = 0; k < grid.size[2]; ++k)
-      for (int i = 0; i < grid.size[0]; ++i)
-        if (seen.at(i, j, k)) return true;
+    for (int i = 0; i < grid.size[0]; ++i)
+      if (seen.at(i, j, k)) return true;
     return false;
   };
-  while (!seen.voxels.empty() && last > 0 && !in_row(last)) --last;
-  return last;
+  int last = end;
+  while (last >= 0 && !in_row(last)) --last;
+  return last < 0 ? end : last;
 }
 
 }  // namespace
@@ -154,14 +156,13 @@ WallDomain wall_domain(const Mask& body, const TorsoFront& torso, bool left, con
   const int across = int(25 / grid.spacing[0]);
   domain.first = left ? std::max(0, torso.midline - across) : 0;
   domain.last = left ? grid.size[0] - 1 : std::min(grid.size[0] - 1, torso.midline + across);
-  const double end = last_seen_row(body.grid, seen) * grid.spacing[1];
   domain.deepest = HeightField(grid.size[0], grid.size[2], 0);
   for (int k = 0; k < grid.size[2]; ++k) {
+    const double end = last_seen_row(grid, seen, k) * grid.spacing[1];
     domain.nearest.push_back(std::max(0.0, torso.cleft[k] - 25));
     for (int i = 0; i < grid.size[0]; ++i) {
-      // The chest curves back at its sides.
       const double aside = std::abs(i - torso.midline) * grid.spacing[0];
-      const double depth = 60 + 0.5 * std::clamp(aside - 90, 0.0, 50.0);
+      const double depth = sought_behind + 0.5 * std::clamp(aside - curving_back, 0.0, 50.0);
       domain.deepest.at(i, k) = std::min(end, torso.cleft[k] + depth);
     }
   }

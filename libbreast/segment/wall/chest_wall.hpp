@@ -9,6 +9,10 @@
 
 namespace breast {
 
+/// The wall is sought to this depth (mm) behind the skin over the sternum, deeper by half of what a column lies farther
+/// aside than where the chest begins to curve back (mm from the midline).
+inline constexpr double sought_behind = 60, curving_back = 90;
+
 /// Columns in which the wall is sought, and the range of its depth.
 struct WallDomain {
   int first = 0, last = 0;      ///< columns i, inclusive

@@ -146,6 +146,14 @@ void end_cranially(std::vector<std::uint8_t>& columns, const HeightField& thickn
   }
 }
 
+/// The view ends in front of where the wall is sought, and not where the chest curves back: a wall found there is the
+/// view's end, and what lies before it stands on the wall nevertheless.
+bool ends_before_wall(const WallDomain& domain, const TorsoFront& torso, double spacing, int i,
+                      int k) {
+  const double aside = std::abs(i - torso.midline) * spacing;
+  return aside < curving_back && domain.deepest.at(i, k) < torso.cleft[k] + sought_behind;
+}
+
 }  // namespace
 
 BreastExtent find_extent(const ChestWall& wall, const WallDomain& domain, const TorsoFront& torso,
@@ -167,7 +175,8 @@ BreastExtent find_extent(const ChestWall& wall, const WallDomain& domain, const 
   for (int k = 0; k < nz; ++k) {
     for (int i = domain.first; i <= domain.last; ++i) {
       if (!on_side(i, torso, side)) continue;
-      const bool turns_away = wall.depth.at(i, k) > domain.deepest.at(i, k) - 3;
+      const bool turns_away = wall.depth.at(i, k) > domain.deepest.at(i, k) - 3 &&
+                              !ends_before_wall(domain, torso, grid.spacing[0], i, k);
       if (turns_away && posture == Posture::prone) continue;
       const int a = std::max(i - step, domain.first), b = std::min(i + step, domain.last);
       const double slope =
