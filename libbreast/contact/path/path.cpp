@@ -169,7 +169,7 @@ void Path::add_corners() {
   for (const double way : options_.corners) {
     if (stops_.end) {
       const double initial = plates_.closing_range;
-      stops_.corners.push_back(initial + way * (*stops_.end - initial));
+      stops_.corners.push_back(initial + closing_at(way, target_) * (*stops_.end - initial));
     }
     for (CompressionTarget control : stops_.controls) {
       control.value *= way;

@@ -2,6 +2,7 @@
 #include "contact/path/target.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace breast {
 
@@ -69,11 +70,16 @@ std::vector<CompressionTarget> others_than_thickness(const CompressionTarget& ta
   return others;
 }
 
+double closing_at(double way, const CompressionTarget& target) {
+  return others_than_thickness(target).empty() ? way : std::cbrt(way);
+}
+
 double part_of_way(const PathPoint& end, const CompressionTarget& target, double initial) {
+  const bool only_thickness = others_than_thickness(target).empty();
   const auto part = [&](const CompressionTarget& wanted) {
-    if (wanted.kind == TargetKind::thickness)
-      return (initial - end.thickness) / (initial - wanted.value);
-    return measure(end, wanted) / wanted.value;
+    if (wanted.kind != TargetKind::thickness) return measure(end, wanted) / wanted.value;
+    const double closing = (initial - end.thickness) / (initial - wanted.value);
+    return only_thickness ? closing : std::pow(closing, 3);
   };
   double most = part(target);
   for (const CompressionTarget& one : all_of(target)) most = std::max(most, part(one));

@@ -50,9 +50,13 @@ std::vector<CompressionTarget> others_than_thickness(const CompressionTarget& ta
 /// Parts of the way closer than this are the same: they follow from a thickness, with rounding.
 inline constexpr double same_part = 1e-9;
 /// Part of the way (0 to 1) to the nearest of the target and its alternatives at a point `end`, for
-/// plates that began `initial` mm apart.
+/// plates that began `initial` mm apart. Of a thickness that is an alternative to a force, a pressure or an area, the way is
+/// the cube of the part of the closing: soft breasts are half closed before the plates grip them, and a hand that let go by
+/// then would lose what it has pulled forwards.
 double part_of_way(const PathPoint& end, const CompressionTarget& target, double initial);
-/// The same of a point at a thickness (mm) that is not known yet: forces, pressures and areas continue
+/// The part of the closing to a thickness of the target that is this part of the way.
+double closing_at(double way, const CompressionTarget& target);
+/// part_of_way of a point at a thickness (mm) that is not known yet: forces, pressures and areas continue
 /// as from `before` to `here`, or stay as they are if `before` is null.
 double expected_part_of_way(double thickness, const PathPoint& here, const PathPoint* before,
                             const CompressionTarget& target, double initial);
