@@ -27,21 +27,26 @@ TEST(Positioning, TheHandLetsGoOfTheWeightFirst) {
   EXPECT_EQ(hand.gone_from(), 0.8);
 }
 
-// The way to the nearest target: a force that comes early leads, whatever the thickness is.
+// The way to the nearest target: a force that comes early leads, whatever the thickness is. Half of the closing beside a force is an
+// eighth of the way, and half of it alone is half of the way.
 TEST(Positioning, TheWayIsThatToTheNearestTarget) {
   const CompressionTarget target{
       TargetKind::force, 100, {{TargetKind::thickness, 40}, {TargetKind::pressure, 100, {}, 50}}};
   PathPoint here{90, 60, 60, 0, 0};
   EXPECT_NEAR(part_of_way(here, target, 140), 0.6, 1e-12);
   here.paddle_N = 10;
-  EXPECT_NEAR(part_of_way(here, target, 140), 0.5, 1e-12);
+  EXPECT_NEAR(part_of_way(here, target, 140), 0.125, 1e-12);
   // 10 N on a point of 0.1 cm2 are 1000 kPa, but 2 kPa over the least area.
   here.area_cm2 = 0.1;
   here.pressure_kPa = 1000;
-  EXPECT_NEAR(part_of_way(here, target, 140), 0.5, 1e-12);
+  EXPECT_NEAR(part_of_way(here, target, 140), 0.125, 1e-12);
   const PathPoint before{100, 4, 4, 0, 0};
-  EXPECT_NEAR(expected_part_of_way(80, here, &before, target, 140), 0.6, 1e-12);
+  EXPECT_NEAR(expected_part_of_way(80, here, &before, target, 140), 0.216, 1e-12);
   EXPECT_NEAR(expected_part_of_way(80, {90, 60, 60, 0, 0}, &before, target, 140), 1.16, 1e-12);
+  EXPECT_NEAR(closing_at(0.125, target), 0.5, 1e-12);
+  const CompressionTarget thickness{TargetKind::thickness, 40};
+  EXPECT_NEAR(part_of_way(here, thickness, 140), 0.5, 1e-12);
+  EXPECT_EQ(closing_at(0.5, thickness), 0.5);
 }
 
 TEST(Positioning, PullActsForwardsInFrontOfTheEdgeAlone) {
