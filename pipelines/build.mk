@@ -64,7 +64,7 @@ $(ROOT)build/built-$(PRESET_BUILD).mk: $(ROOT)build/.packages $(SOURCES)
 	@echo "# Written when the programs in $(BUILD) were last built." > $@
 ifneq ($(if $(ready),,$(wanted)),)
 include $(ROOT)build/cases.mk
-else ifneq ($(filter-out help setup clean where settings package api,$(goals)),)
+else ifneq ($(filter-out help setup clean where package api,$(goals)),)
 include $(ROOT)build/built-$(PRESET_BUILD).mk
 endif
 endif

@@ -25,10 +25,10 @@ phantom-scan: $(if $(TRUTH),$(MR))
 # levels (phantom-mesh), whose distance is the truth's own error: 4280 and 34240 elements if the cut is held, 900 and 2176
 # elements if friction makes every step expensive. The plates have the same positions on both meshes.
 # This takes many minutes and is therefore a separate target; TRUTH_TABLE is a truth for probe --truth.
-# In CC the plates start 20 mm in front of the chest wall and hold by more friction: this body continues below its inframammary
+# In CC the plates start 20 mm in front of the chest wall: this body continues below its inframammary
 # fold, where a raised detector nearer to the wall would press the skin into a pleat (docs/validation/truth-sliding.md).
 TRUTH_AT := $(PHANTOM_TRUTH)/$(SIDE)
-truth_edge_cc := 20 --friction 0.3
+truth_edge_cc := 20
 truth_edge_mlo := auto
 # Half the thickness, whatever the force. At 49.5 % an element of the finer mesh folds in MLO, where this body has touched itself.
 truth_reduction_cc = $(or $(REDUCTION),50)
@@ -63,7 +63,7 @@ $(RUN)/truth-cc.vtkhdf $(RUN)/truth-mlo.vtkhdf: $(RUN)/truth-%.vtkhdf: $(RUN)/re
 	  $(COMPRESS_OPTIONS) $(MECHANICS) $(SUPPORT) $(common)
 $(TRUTH_TABLE): $(PHANTOM_TRUTH)/landmarks.tsv $(TRUTH_MESHES) $(BIN)/truth-table
 	$(BIN)/truth-table $< $@ $(TRUTH_MESHES) $(common)
-plates_of_truth = $(call same_plates,$(TRUTH_AT)-fine-$1.json) $(if $(body_slides),$(wordlist 2,3,$(truth_edge_$1)))
+plates_of_truth = $(call same_plates,$(TRUTH_AT)-fine-$1.json)
 same_plates = --thickness $$($(tabulate) key $1 thickness_mm) --edge-at $$($(tabulate) key $1 edge_at_mm) \
   --middle-at $$($(tabulate) key $1 middle_at_mm) --turn $$($(tabulate) key $1 turn_deg) --lean $$($(tabulate) key $1 lean_deg) \
   --bend $$($(tabulate) key $1 bend_deg)

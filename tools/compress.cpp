@@ -40,7 +40,7 @@ void declare(Tool& tool, Choices& c) {
   tool.describe(
       "With --image-edge, which is the default for a breast that slides on its chest "
       "wall, the plates are placed as in the clinic: their edge is close to the chest wall and "
-      "parallel to it, element faces penetrate the plates by at most 0.05 "
+      "along it, element faces penetrate the plates by at most 0.05 "
       "mm, and friction holds the breast, which a hand supports until the plates grip it. "
       "Otherwise contact is enforced exactly at the nodes, without a penalty; worst_gap_mm in "
       "the report is the depth to which faces penetrate a rounded edge between nodes. Unless "
@@ -178,7 +178,8 @@ void declare(Tool& tool, Choices& c) {
               "tilt of the paddle about the lateral axis; a positive tilt narrows the gap at "
               "the nipple",
               -20, 20);
-  tool.text(c.gravity, "--gravity", "upright|off|gx,gy,gz", "gravity during compression, mm/s2");
+  tool.text(c.gravity, "--gravity", "upright|off|gx,gy,gz",
+            "gravity of a patient who stands upright, mm/s2; it turns with --bend");
   tool.text(c.detector, "--detector", "raised|fixed|MM",
             "raised: the detector rises so that both plates close about the breast's mid-plane; "
             "fixed: only the paddle moves; a number: the detector rises by so much and the paddle "

@@ -155,6 +155,11 @@ void check_stated_contrast(const Choices& c, const VolumeSource& source) {
                       stated == "not stated" || stated == "T1 fat-suppressed";
   if (may_be || c.contrast != "auto" || !c.fat.empty() || !c.also.empty() || !c.wall.empty())
     return;
+  if (stated == "fat") {
+    throw input_error(
+        c.scan.string(),
+        ": its header states 'fat': give the water image as MR and this one as --fat");
+  }
   throw input_error(
       c.scan.string(), ": its header states '", stated,
       "', in which fat is not the one bright tissue that shows the chest wall: give a T1 "

@@ -268,7 +268,7 @@ void Compression::refuse_without_grip() {
   found_.record.status = SolveStatus::not_gripped;
   found_.reason_id = "not_gripped";
   found_.record.reason = message("the plates do not grip the breast: ", why,
-                                 ". Try a smaller --image-edge, more force or another --turn");
+                                 ". Try another --image-edge, more force or another --turn");
 }
 
 /// Completed fraction of the path to the target.
@@ -421,27 +421,42 @@ bool presses_on_wall(const CompressionResult& found) {
   });
 }
 
-/// Where the edge of the image is placed if the wall is in the way: halfway to the farthest place, and there.
-std::vector<double> farther_image_edges(const PlateOptions& plates) {
+/// Where the edge of the image is placed if the wall is in the way: halfway to the farthest place, and there. Nowhere else
+/// if the place is given, or if the plates need not grip the breast.
+std::vector<double> farther_image_edges(const CompressionOptions& options) {
   constexpr double least_mm = 1;
-  if (!plates.image_edge || !plates.farthest_image_edge) return {};
+  const PlateOptions& plates = options.plates;
+  if (!options.must_grip || plates.edge_at || !plates.image_edge || !plates.farthest_image_edge)
+    return {};
   const double farthest = *plates.farthest_image_edge, way = farthest - *plates.image_edge;
   if (way < least_mm) return {};
   return {farthest - 0.5 * way, farthest};
 }
 
-/// Adds the cost of an earlier placement of the plates.
-void charge(const CompressionResult& earlier, CompressionResult& found) {
+/// Adds the cost of another placement of the plates. Its iterations stand before those of the result, which end the list.
+void charge(const CompressionResult& other, CompressionResult& found) {
   std::vector<IterationRecord>& rows = found.record.iterations;
-  for (IterationRecord& row : rows) row.step += earlier.steps;
-  rows.insert(rows.begin(), earlier.record.iterations.begin(), earlier.record.iterations.end());
-  found.steps += earlier.steps;
-  found.newton_iterations += earlier.newton_iterations;
-  found.linear_iterations += earlier.linear_iterations;
-  found.factorisations += earlier.factorisations;
-  found.path.indefinite += earlier.path.indefinite;
-  found.path.failures += earlier.path.failures;
-  for (const auto& [phase, seconds] : earlier.timer.seconds()) found.timer.add(phase, seconds);
+  for (IterationRecord& row : rows) row.step += other.steps;
+  rows.insert(rows.begin(), other.record.iterations.begin(), other.record.iterations.end());
+  found.steps += other.steps;
+  found.newton_iterations += other.newton_iterations;
+  found.linear_iterations += other.linear_iterations;
+  found.factorisations += other.factorisations;
+  found.path.indefinite += other.path.indefinite;
+  found.path.failures += other.path.failures;
+  for (const auto& [phase, seconds] : other.timer.seconds()) found.timer.add(phase, seconds);
+}
+
+/// The result between plates that are placed anew, or nothing where they would miss the breast.
+std::optional<CompressionResult> placed_anew(const HexMesh& mesh, const CompressionOptions& options,
+                                             const MechanicsOptions& mechanics,
+                                             Progress& progress) {
+  try {
+    return Compression(mesh, options, mechanics, progress).run();
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::input) return {};
+    throw;
+  }
 }
 
 /// The options with the angle by which the patient bends forwards, and gravity in her frame.
@@ -459,19 +474,23 @@ CompressionResult compress(const HexMesh& mesh, const CompressionOptions& option
   check(mesh, options, mechanics);
   CompressionOptions placed = bent(mesh, options);
   CompressionResult found = Compression(mesh, placed, mechanics, progress).run();
-  for (const double image_edge : farther_image_edges(placed.plates)) {
-    if (!presses_on_wall(found)) break;
+  const double first_edge = placed.plates.image_edge.value_or(0);
+  bool search = presses_on_wall(found);
+  for (const double image_edge : farther_image_edges(placed)) {
+    if (!search) break;
     progress.note(message("the plates' edge carries ", std::round(100 * most_on_edge(found)),
                           " % of a plate's force: the plates are placed anew, their edge ",
-                          image_edge - *placed.plates.image_edge, " mm farther from the wall"));
+                          image_edge - first_edge, " mm farther from the wall than at first"));
     placed.plates.image_edge = image_edge;
-    CompressionResult next = Compression(mesh, placed, mechanics, progress).run();
-    next.placements = found.placements + 1;
-    const bool better = next.converged() || most_on_edge(next) < most_on_edge(found);
-    if (!better) std::swap(next, found);
-    charge(found, next);
-    next.placements = std::max(found.placements, next.placements);
-    found = std::move(next);
+    std::optional<CompressionResult> next = placed_anew(mesh, placed, mechanics, progress);
+    if (!next) break;
+    search = !next->converged();
+    const int placements = found.placements + 1;
+    const bool better =
+        next->converged() || (next->contact && most_on_edge(*next) < most_on_edge(found));
+    if (better) std::swap(*next, found);
+    charge(*next, found);
+    found.placements = placements;
   }
   return found;
 }

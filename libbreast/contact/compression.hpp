@@ -30,7 +30,8 @@ struct CompressionOptions {
   /// compression: its status is not_gripped. Otherwise it is converged.
   bool must_grip = true;
   PlateOptions plates;
-  Vec3 gravity{0, 0, -9810};  ///< mm/s², LPS
+  /// mm/s², LPS, of a patient who stands upright: it turns with one who bends forwards.
+  Vec3 gravity{0, 0, -9810};
   ContactMethod method = ContactMethod::active_set;
   Positioning positioning = Positioning::hanging;
   double pull_N = 0;    ///< force with which the hand pulls the lifted breast forwards
@@ -79,8 +80,7 @@ struct CompressionResult : Equilibrium {
 
 /// Compresses mesh.reference. A compression that stops early returns its last equilibrium with the status
 /// stopped_early and the reason, and one that does not grip the breast the status not_gripped; if gravity
-/// alone does not converge, the status is not_converged. Plates that were placed several times have the cost of all their
-/// placements. Throws Error (input) when the plates miss the breast
+/// alone does not converge, the status is not_converged. The cost is that of all placements of the plates. Throws Error (input) when the plates miss the breast
 /// or an option is out of range.
 CompressionResult compress(const HexMesh& mesh, const CompressionOptions& options,
                            const MechanicsOptions& mechanics, Progress& progress = no_progress());

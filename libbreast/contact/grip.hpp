@@ -14,8 +14,8 @@ namespace breast {
 /// The targets of a compression that is given none, the first of which is reached ends it: a paddle
 /// force of 110 N, less for a breast that is small in the image, or a thickness of 35 mm. Screening
 /// programmes press with 116 N in the mean (Norway, centres 91-147); a small breast is given less,
-/// because pressure is what hurts (de Groot 2013): 15 kPa over the projection, but at least 50 N.
-/// `projected_cm2` is the area of the uncompressed breast in the image.
+/// because pressure is what hurts (de Groot 2013): 4 N for each cm2 that its
+/// stress-free shape covers in the image, `projected_cm2`, but at least 50 N.
 std::vector<CompressionStop> clinical_stops(double projected_cm2);
 
 /// Smallest area (cm²) over which a mean pressure is a target between plates that are placed by the

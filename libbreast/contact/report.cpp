@@ -13,6 +13,7 @@ void write_report(const CompressionResult& summary, const HexMesh& mesh,
   write_report(static_cast<const Equilibrium&>(summary), mesh, mechanics, report);
   report.set("indefinite_iterations", summary.path.indefinite);
   report.set("failed_steps", summary.path.failures);
+  report.set("placements", summary.placements);
   if (summary.path.reached()) report.set("ended_by", target_name(summary.path.met.kind));
   if (!summary.contact) return;
   const ContactRecord& contact = *summary.contact;
@@ -22,7 +23,6 @@ void write_report(const CompressionResult& summary, const HexMesh& mesh,
   report.set("standoff_mm", contact.standoff_mm);
   const PlateRecord& detector = contact.plates[1];
   report.set("edge_at_mm", detector.origin.dot(detector.anterior));
-  report.set("placements", summary.placements);
   report.set("turn_deg", contact.turn_deg);
   report.set("lean_deg", contact.lean_deg);
   report.set("bend_deg", contact.bend_deg);

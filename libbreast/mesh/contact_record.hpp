@@ -37,8 +37,7 @@ struct ContactRecord {
   double turn_deg = 0;
   /// Angle by which it is turned about the beam, with its upper end backwards.
   double lean_deg = 0;
-  /// Angle by which the patient bends forwards: the beam and the edge's direction are turned about the other axis of the
-  /// detector.
+  /// Angle by which the patient bends forwards: beam and edge are turned about the direction along the edge.
   double bend_deg = 0;
   /// Whether the image ends at the plates' edge, as in the clinic, or at the chest wall.
   bool ends_image = false;

@@ -19,7 +19,8 @@ _TYPES = {"i1": "signed char,int8,int8_t", "u1": "uchar,unsigned char,uint8,uint
           "i8": "longlong,long long,long long int,signed long long,signed long long int,int64,int64_t",
           "u8": "ulonglong,unsigned long long,unsigned long long int,uint64,uint64_t", "f4": "float", "f8": "double"}
 _CODE_OF = {name: code for code, names in _TYPES.items() for name in names.split(",")}
-_TO_LPS = {"left-posterior-superior": (1, 1, 1), "lps": (1, 1, 1), "right-anterior-superior": (-1, -1, 1), "ras": (-1, -1, 1)}
+_TO_LPS = {"left-posterior-superior": (1, 1, 1), "lps": (1, 1, 1), "right-anterior-superior": (-1, -1, 1), "ras": (-1, -1, 1),
+           "left-anterior-superior": (1, -1, 1), "las": (1, -1, 1)}
 
 
 def read_nrrd(file: Path) -> Volume | Segmentation | Field:
@@ -35,7 +36,7 @@ def read_nrrd(file: Path) -> Volume | Segmentation | Field:
     axes, origin = _placed(file, fields)
     voxels = _voxels(file, fields, content[data_at:], count)
     if components == 3:
-        if not fields["space"].lower().startswith(("left", "lps")):
+        if _TO_LPS[fields["space"].lower()] != (1, 1, 1):
             raise BreastError("a field of vectors must be in space left-posterior-superior", file)
         first = made_volume(file, size[-3:], axes, origin, voxels[0::3])
         rest = [made_volume(file, size[-3:], axes, origin, voxels[d::3]).voxels for d in (1, 2)]

@@ -301,7 +301,7 @@ class WhatIsSaid(unittest.TestCase):
             self.assertEqual(page.count("it &lt;slips&gt;"), 2, "in the banner, for want of words, and among what the programs say")
             self.assertTrue('id="picture-CC"' in page and 'id="picture-MLO"' not in page and 'id="data"' not in page)
         why = ("the plates do not grip the breast: the rounded edge carries 59 % of the paddle's force (less than 40 % are allowed). Try a "
-               "smaller --image-edge")
+               "another --image-edge")
         (run / "mlo.json").write_text(json.dumps({"view": "MLO", "accepted": False, "status": "not_gripped", "explanation": why,
                                                   "warnings": ["skin lies 2 mm deep in the chest wall"]}))
         page = views_page(run, read_views(run, None))

@@ -66,7 +66,8 @@ def banners_of(run: Path) -> list[Banner]:
         status, name = report.text("status"), report.text("view") or view.upper()
         why = one_line(report.text("explanation") or report.text("reason") or status)
         reason = " ".join(words for pattern, _, words in table if pattern.search(why)) or why
-        said = [f"{view}: {text}" for text in (why, *map(one_line, report.texts("warnings")))]
+        warnings = report.texts("warnings") if why_no_compression(run / f"{view}.vtkhdf") else []  # else remarks_of has them
+        said = [f"{view}: {text}" for text in (why, *map(one_line, warnings))]
         nothing = f"There is no {name} image, and no line to or from it."
         reduction = report.number("reduction_percent")
         early = "the simulated compression stopped early" + (f", when the breast was {reduction:.0f} % thinner" if reduction else "")
