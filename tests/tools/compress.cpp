@@ -2,8 +2,11 @@
 // compress from file to file: contract keys of the report, early stops, refusals.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 
 #include "core/report.hpp"
 #include "core/table.hpp"
@@ -11,6 +14,7 @@
 #include "fixtures/run_tool.hpp"
 #include "fixtures/scratch_folder.hpp"
 #include "io/mesh_file.hpp"
+#include "mesh/compressed_pose.hpp"
 
 namespace breast {
 namespace {
@@ -87,13 +91,13 @@ TEST_F(CompressTool, WritesTheContactRecordAndTheContractKeys) {
 // The estimate against what 27-node elements on the same mesh really differ by.
 TEST_F(CompressTool, PlacesThePlatesByTheEdgeOfTheImage) {
   // This wall is held, and with it the tissue at the edge, on which almost all of the force stays.
-  const ToolResult refused =
-      compress({"CC", "--reduction", "25", "--image-edge", "8", "--turn", "5"});
+  const ToolResult refused = compress(
+      {"CC", "--reduction", "25", "--image-edge", "8", "--turn", "5", "--friction", "0.15"});
   EXPECT_EQ(refused.exit_code, 3);
   EXPECT_EQ(refused.error_lines(), 1) << refused.err;
   EXPECT_FALSE(wrote());
-  const ToolResult kept = compress(
-      {"CC", "--reduction", "25", "--image-edge", "8", "--turn", "5", "--keep-unconverged"});
+  const ToolResult kept = compress({"CC", "--reduction", "25", "--image-edge", "8", "--turn", "5",
+                                    "--friction", "0.15", "--keep-unconverged"});
   ASSERT_EQ(kept.exit_code, 3) << kept.err;
   const Report r = report();
   EXPECT_EQ(r.text("status"), "not_gripped");
@@ -114,10 +118,33 @@ TEST_F(CompressTool, PlacesThePlatesByTheEdgeOfTheImage) {
   EXPECT_FALSE(mesh.contact->friction.empty());
 }
 
+// All three placements press on the wall that is held. The cost is that of all, and their iterations are in one list.
+TEST_F(CompressTool, PlacesPlatesAnewThatPressOnTheWallOfAPatientWhoBendsForwards) {
+  const ToolResult kept =
+      compress({"CC", "--reduction", "25", "--image-edge", "auto", "--turn", "5", "--bend", "7",
+                "--friction", "0.15", "--keep-unconverged"});
+  ASSERT_EQ(kept.exit_code, 3) << kept.err;
+  const Report r = report();
+  EXPECT_EQ(r.text("status"), "not_gripped");
+  EXPECT_EQ(r.number("placements"), 3);
+  EXPECT_EQ(r.number("bend_deg"), 7);
+  const HexMesh mesh = read_mesh(folder_ / "out.vtkhdf");
+  ASSERT_TRUE(mesh.contact && mesh.solve);
+  const std::vector<IterationRecord>& rows = mesh.solve->iterations;
+  EXPECT_EQ(double(rows.size()), r.number("newton_iterations"));
+  EXPECT_TRUE(std::ranges::is_sorted(rows, {}, &IterationRecord::step));
+  EXPECT_LE(rows.back().step, r.number("steps"));
+  const Vec3 beam = compressed_pose(mesh).n;
+  EXPECT_NEAR(beam.y(),
+              -std::sin(7 * std::numbers::pi / 180) * std::cos(5 * std::numbers::pi / 180), 1e-9);
+  EXPECT_LT((mesh.gravity - mesh.gravity.norm() * beam).norm(), 1e-6) << "of CC, along the beam";
+}
+
 // On the way, faces lie deeper in the plates and the force is smaller.
 TEST_F(CompressTool, EndsAtTheForceThatWasAskedFor) {
-  const ToolResult good = compress({"CC", "--reduction", "25", "--force", "2000", "--image-edge",
-                                    "8", "--turn", "5", "--keep-unconverged"});
+  const ToolResult good =
+      compress({"CC", "--reduction", "25", "--force", "2000", "--image-edge", "8", "--turn", "5",
+                "--friction", "0.15", "--keep-unconverged"});
   ASSERT_EQ(report().text("status"), "not_gripped") << good.err;
   EXPECT_NEAR(report().number("force_N"), 2000, 0.005 * 2000);
   EXPECT_LT(report().number("reduction_percent"), 25);

@@ -114,6 +114,7 @@ class Path {
   PathEnd end_at_thickness();
   PathEnd end_at(const CompressionTarget& target, Waypoint beyond);
   bool sharpen_up_to(const CompressionTarget& target, Waypoint& beyond);
+  bool let_go_before(const CompressionTarget& target, Waypoint& beyond);
   PathEnd search_end(const CompressionTarget& target, Waypoint beyond);
   std::optional<Waypoint> solve_within(const Bracket& bracket);
   PathEnd end_in(const Bracket& bracket, const CompressionTarget& target);
@@ -122,6 +123,7 @@ class Path {
   std::optional<Waypoint> solve_at(double thickness, const Guess& guess, double way,
                                    double tolerance);
   std::optional<Waypoint> sharpened(double tolerance);
+  std::optional<Waypoint> solve_again(double way, double tolerance);
   void record_iterations(const ContactStep& step, double thickness);
   void record_failure(const ContactStep& step, double thickness);
   bool step_back();
@@ -329,7 +331,8 @@ PathEnd Path::end_at_thickness() {
 /// Seeks the end between the last state and one beyond the target; takes the latter if the path
 /// could not end earlier.
 PathEnd Path::end_at(const CompressionTarget& target, Waypoint beyond) {
-  if (sharpen_up_to(target, beyond)) return search_end(target, std::move(beyond));
+  if (sharpen_up_to(target, beyond) || let_go_before(target, beyond))
+    return search_end(target, std::move(beyond));
   result_.met = target;
   result_.passed_by = measure(beyond.point, target);
   trail_.end_between(trail_.here(), std::move(beyond));
@@ -353,6 +356,22 @@ bool Path::sharpen_up_to(const CompressionTarget& target, Waypoint& beyond) {
     beyond = std::move(*sharp);
     if (!step_back()) return false;
   }
+  return false;
+}
+
+/// Where the hand still held the last states: lets go at the latest of them that is then before the target. Returns false if
+/// there is none.
+bool Path::let_go_before(const CompressionTarget& target, Waypoint& beyond) {
+  do {
+    const Waypoint& here = trail_.here();
+    std::optional<Waypoint> free = solve_again(std::max(here.way, options_.may_end_from), sought());
+    if (!free) continue;
+    if (measure(free->point, target) < target.value) {
+      trail_.sharpen(std::move(*free));
+      return true;
+    }
+    beyond = std::move(*free);
+  } while (step_back());
   return false;
 }
 
@@ -426,11 +445,15 @@ std::optional<Waypoint> Path::solve_at(double thickness, const Guess& guess, dou
                   guess.plates_moved, std::move(moved)};
 }
 
-/// The last state, solved again to this residual. It replaces its point on the path.
 std::optional<Waypoint> Path::sharpened(double tolerance) {
+  return solve_again(trail_.here().way, tolerance);
+}
+
+/// The last state, solved again at this part of the way and to this residual. It replaces its point on the path.
+std::optional<Waypoint> Path::solve_again(double way, double tolerance) {
   const Waypoint& here = trail_.here();
   std::optional<Waypoint> sharp =
-      solve_at(here.thickness, {here.state, here.memory, here.plates_moved}, here.way, tolerance);
+      solve_at(here.thickness, {here.state, here.memory, here.plates_moved}, way, tolerance);
   std::vector<PathPoint>& points = result_.points;
   const std::size_t n = points.size();
   if (sharp && n >= 2 && points[n - 2].thickness == points[n - 1].thickness) {
