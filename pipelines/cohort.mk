@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # A patient is described by a small case file (MR, SIDE, MATERIALS, ...: one KEY = VALUE per line). A cohort is a folder of case
-# files: COHORT/*.case or COHORT/*/case.txt. Every case is run; a case that fails is recorded with its reason and does not stop the
+# files: COHORT/*/case.txt or COHORT/*.case. Every case is run; a case that fails is recorded with its reason and does not stop the
 # others. If all cases fail, make fails.
 # CLUSTER=slurm submits the cases to Slurm as one job array (`cases submit`); otherwise they run as processes on this machine.
 # RESUME submits only the cases of a cohort that are missing or out of date. Local runs always do so.
