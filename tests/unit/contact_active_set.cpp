@@ -270,7 +270,9 @@ TEST(CompressionPath, TheFirstOfSeveralTargetsEndsIt) {
 
 // A target that comes before the path may end is passed by the shortest step at most, with the load
 // of the end of the way, and the result says by how much.
-TEST(CompressionPath, ATargetIsPassedByLittleWhereThePathMayNotEndYet) {
+// The part of the way from which the path may end is never reached, so that the load of the end is
+// set at the last states.
+TEST(CompressionPath, ATargetPassedBeforeThePathMayEndIsSoughtWithTheLoadOfTheEnd) {
   QuadraticBody body(24, 11);
   PlatePair plates = plates_at(-20, 20, 15);
   ActiveSet contact = body.active_set();
@@ -288,12 +290,30 @@ TEST(CompressionPath, ATargetIsPassedByLittleWhereThePathMayNotEndYet) {
   const PathResult path = close(again, fresh, state, target, options);
   ASSERT_TRUE(path.reached());
   EXPECT_EQ(path.met.kind, TargetKind::force);
-  ASSERT_TRUE(path.passed_by);
-  EXPECT_GT(*path.passed_by, 0.05);
-  EXPECT_NEAR(*path.passed_by, path.points.back().paddle_N, 1e-5);
-  EXPECT_LT(path.thickness, early);
-  EXPECT_GT(path.thickness, early - 2 * options.shortest_step);
+  EXPECT_FALSE(path.passed_by);
+  EXPECT_NEAR(path.points.back().paddle_N, 0.05, 1e-5);
+  EXPECT_NEAR(path.thickness, early, 0.01);
   EXPECT_GE(last_way, 3);
+}
+
+TEST(CompressionPath, ATargetThatEveryPositionPassesIsSaid) {
+  QuadraticBody body(24, 11);
+  PlatePair plates = plates_at(-20, 20, 15);
+  ActiveSet contact = body.active_set();
+  State state = body.start();
+  ASSERT_TRUE(close(plates, contact, state, {TargetKind::force, 0.06}).reached());
+  const double start = plates.thickness();
+  PathOptions options;
+  options.prepare = [](double) {};
+  options.may_end_from = 3;
+  const CompressionTarget target{TargetKind::force, 0.05, {{TargetKind::thickness, 0.5 * start}}};
+  const PathResult path = close(plates, contact, state, target, options);
+  ASSERT_TRUE(path.reached());
+  EXPECT_EQ(path.met.kind, TargetKind::force);
+  ASSERT_TRUE(path.passed_by);
+  EXPECT_GE(*path.passed_by, 0.06 - 1e-5);
+  EXPECT_NEAR(*path.passed_by, path.points.back().paddle_N, 1e-5);
+  EXPECT_GT(path.thickness, start - 2 * options.shortest_step);
 }
 
 // A penalty that sets in after part of the way, `stiffer` times as stiff as the tangent knows.

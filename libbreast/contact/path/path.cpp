@@ -359,8 +359,8 @@ bool Path::sharpen_up_to(const CompressionTarget& target, Waypoint& beyond) {
   return false;
 }
 
-/// Where the hand still held the last states: lets go at the latest of them that is then before the target. Returns false if
-/// there is none.
+/// Where the hand still held the last states: lets go at the latest of them that is then before the
+/// target. Returns false if there is none.
 bool Path::let_go_before(const CompressionTarget& target, Waypoint& beyond) {
   do {
     const Waypoint& here = trail_.here();
@@ -449,7 +449,8 @@ std::optional<Waypoint> Path::sharpened(double tolerance) {
   return solve_again(trail_.here().way, tolerance);
 }
 
-/// The last state, solved again at this part of the way and to this residual. It replaces its point on the path.
+/// The last state, solved again at this part of the way and to this residual. It replaces its point
+/// on the path.
 std::optional<Waypoint> Path::solve_again(double way, double tolerance) {
   const Waypoint& here = trail_.here();
   std::optional<Waypoint> sharp =

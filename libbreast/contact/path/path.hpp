@@ -38,8 +38,8 @@ struct PathOptions {
   std::vector<double> corners;
   /// A target other than a thickness may end the path from this part of the way on.
   double may_end_from = 0;
-  /// Returns the weight (N, along the beam, positive towards the detector) that no hand carries at a part of the
-  /// way. If it is given, the plates' mid-plane follows the breast (mid_plane_move).
+  /// Returns the weight (N, along the beam, positive towards the detector) that no hand carries at a
+  /// part of the way. If it is given, the plates' mid-plane follows the breast (mid_plane_move).
   std::function<double(double)> weight_N;
   /// Whether PathResult::kept is filled.
   bool keep = false;
