@@ -172,6 +172,10 @@ void Compression::close_plates(State& state) {
                                    describe(found_.path.last_failure));
     return;
   }
+  if (found_.path.end == PathEnd::on_edge) {
+    found_.left_with_on_edge = most_on_edge(found_.path.points.back());
+    return;
+  }
   if (!has_let_go(state)) return;
   {
     Timer::Scope phase(found_.timer, "results");
@@ -407,15 +411,26 @@ void check(const HexMesh& mesh, const CompressionOptions& options,
   }
 }
 
+/// A loosely solved state with more than this part of a plate's force on its edge will not grip: the
+/// limit of a grip, and the few per cent by which such a state differs from the accurate one.
+constexpr double surely_on_edge = 0.43;
+
 /// Largest share of a plate's force on its rounded edge.
-double most_on_edge(const CompressionResult& found) {
-  double most = 0;
+double on_edge(const CompressionResult& found) {
+  double most = found.left_with_on_edge.value_or(0);
   for (const PressedPlace& place : found.places) most = std::max(most, place.edge_part);
   return most;
 }
 
+/// Whether a result between plates that were placed anew replaces the one before.
+bool is_better(const CompressionResult& next, const CompressionResult& before) {
+  if (next.converged() || before.left_with_on_edge) return true;
+  return next.contact && on_edge(next) < on_edge(before);
+}
+
 /// Whether the edges press on the chest wall instead of the breast, so that the result is no compression.
 bool presses_on_wall(const CompressionResult& found) {
+  if (found.left_with_on_edge) return true;
   return !found.converged() && std::ranges::any_of(found.judgement, [](const Judgement& line) {
     return line.id == "edge_carries_force";
   });
@@ -473,24 +488,33 @@ CompressionResult compress(const HexMesh& mesh, const CompressionOptions& option
                            const MechanicsOptions& mechanics, Progress& progress) {
   check(mesh, options, mechanics);
   CompressionOptions placed = bent(mesh, options);
-  CompressionResult found = Compression(mesh, placed, mechanics, progress).run();
+  const std::vector<double> farther = farther_image_edges(placed);
   const double first_edge = placed.plates.image_edge.value_or(0);
+  const double unlimited = placed.path.most_on_edge;
+  if (!farther.empty()) placed.path.most_on_edge = surely_on_edge;
+  CompressionResult found = Compression(mesh, placed, mechanics, progress).run();
   bool search = presses_on_wall(found);
-  for (const double image_edge : farther_image_edges(placed)) {
+  for (const double image_edge : farther) {
     if (!search) break;
-    progress.note(message("the plates' edge carries ", std::round(100 * most_on_edge(found)),
+    progress.note(message("the plates' edge carries ", std::round(100 * on_edge(found)),
                           " % of a plate's force: the plates are placed anew, their edge ",
                           image_edge - first_edge, " mm farther from the wall than at first"));
+    const double nearer = *placed.plates.image_edge;
     placed.plates.image_edge = image_edge;
+    if (image_edge == farther.back()) placed.path.most_on_edge = unlimited;
     std::optional<CompressionResult> next = placed_anew(mesh, placed, mechanics, progress);
+    if (!next && found.left_with_on_edge) {  // farther plates miss the breast
+      placed.plates.image_edge = nearer;
+      placed.path.most_on_edge = unlimited;
+      next = placed_anew(mesh, placed, mechanics, progress);
+    }
     if (!next) break;
     search = !next->converged();
     const int placements = found.placements + 1;
-    const bool better =
-        next->converged() || (next->contact && most_on_edge(*next) < most_on_edge(found));
-    if (better) std::swap(*next, found);
+    if (is_better(*next, found)) std::swap(*next, found);
     charge(*next, found);
     found.placements = placements;
+    if (*placed.plates.image_edge == nearer) break;
   }
   return found;
 }

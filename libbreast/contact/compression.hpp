@@ -70,6 +70,9 @@ struct CompressionResult : Equilibrium {
   std::vector<Judgement> judgement;  ///< comparison with clinical ranges, and comments on the solve
   std::vector<CompressionStop> stops;  ///< the targets
   int placements = 1;  ///< how often the plates were placed (PlateOptions::farthest_image_edge)
+  /// The part of a plate's force on its edge, if the plates were left there to be placed anew
+  /// (PathOptions::most_on_edge).
+  std::optional<double> left_with_on_edge;
   /// Of plates placed by the edge of the image: the state is within the ranges that decide, whether or
   /// not the target was reached.
   bool acceptable = false;

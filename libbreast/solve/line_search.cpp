@@ -21,6 +21,10 @@ constexpr int most_by_slope = 3;
 constexpr double least_factor = 0.01;
 /// Number of lengths tried between one before a kink and one beyond it.
 constexpr int most_between = 5;
+/// Largest fraction of the initial slope where the minimum along a direction is sought, and the number
+/// of lengths tried for it.
+constexpr double slope_kept_at_minimum = 0.1;
+constexpr int most_for_minimum = 12;
 
 /// Along a direction of negative curvature a shifted step is far too short: it is doubled while the
 /// slope remains as steep as expected.
@@ -72,10 +76,45 @@ void approach_kink(NewtonSystem& system, const NewtonDirection& direction,
   }
 }
 
+/// The length at which the energy along the direction is smallest, by the secant through its slopes on
+/// both sides of it, where the slope of an end that stays is halved (Illinois method). A full step at
+/// whose end the energy still falls is taken.
+SearchResult search_minimum(NewtonSystem& system, const NewtonDirection& direction,
+                            const LineSearchRule& rule) {
+  SearchResult result;
+  const double slope = std::abs(direction.slope);
+  double low = 0, high = 1, before = -slope, past = 0, length = 1;
+  for (int k = 0; k < most_for_minimum; ++k) {
+    std::optional<Trial> trial = system.attempt(length);
+    if (trial) {
+      result.any_admissible = true;
+      const double along = trial->seen.along;
+      const bool done = std::abs(along) <= slope_kept_at_minimum * slope ||
+                        trial->seen.residual < rule.tolerance || (along <= 0 && length == 1);
+      if (along <= 0 || done) {
+        result.trial = std::move(trial);
+        result.length = length;
+      }
+      if (done) return result;
+      if (along <= 0) {
+        low = length, before = along, past *= 0.5;
+      } else {
+        before *= past > 0 ? 0.5 : 1;
+        high = length, past = along;
+      }
+    } else {
+      high = length, past = 0;
+    }
+    length = past > 0 ? low + (high - low) * before / (before - past) : 0.5 * (low + high);
+  }
+  return result;
+}
+
 }  // namespace
 
 SearchResult line_search(NewtonSystem& system, const NewtonDirection& direction,
                          const LineSearchRule& rule) {
+  if (rule.to_minimum) return search_minimum(system, direction, rule);
   SearchResult result;
   // Where the tangent is indefinite the slope is anything but linear.
   const bool by_slope = rule.kinks && !rule.downhill_suffices;

@@ -95,6 +95,9 @@ struct LineSearchRule {
   /// stiffer than the tangent, so that after several halvings the slope determines the step length.
   /// A step past the minimum along the direction must end flatter than one before it.
   bool kinks = false;
+  /// Seek the minimum of the energy along the direction, whatever the merit: with an energy that falls
+  /// in every step, steps cannot repeat.
+  bool to_minimum = false;
 };
 
 class NewtonSystem {

@@ -316,6 +316,28 @@ TEST(CompressionPath, ATargetThatEveryPositionPassesIsSaid) {
   EXPECT_GT(path.thickness, start - 2 * options.shortest_step);
 }
 
+// Any part is more than −1: the first position beyond the target ends the path, unfinished.
+TEST(CompressionPath, EndsUnfinishedWhereTheEdgeCarriesTooMuch) {
+  QuadraticBody body(24, 11);
+  const CompressionTarget target{TargetKind::force, 0.05};
+  PlatePair plates = plates_at(-20, 20, 15);
+  ActiveSet whole_way = body.active_set();
+  State state = body.start();
+  const PathResult whole = close(plates, whole_way, state, target);
+  ASSERT_TRUE(whole.reached());
+  EXPECT_GE(most_on_edge(whole.points.back()), 0);
+  plates = plates_at(-20, 20, 15);
+  ActiveSet left = body.active_set();
+  state = body.start();
+  PathOptions options;
+  options.most_on_edge = -1;
+  const PathResult path = close(plates, left, state, target, options);
+  EXPECT_EQ(path.end, PathEnd::on_edge);
+  EXPECT_FALSE(path.reached());
+  EXPECT_GT(path.points.back().paddle_N, 0.05);
+  EXPECT_LT(path.solves, whole.solves);
+}
+
 // A penalty that sets in after part of the way, `stiffer` times as stiff as the tangent knows.
 namespace {
 class Kinked final : public NewtonSystem {
@@ -339,7 +361,8 @@ class Kinked final : public NewtonSystem {
 };
 
 /// Along a direction of slope 1, from a state with this merit.
-SearchResult search(double stiffer, double merit, bool kinks, double from = 0) {
+SearchResult search(double stiffer, double merit, bool kinks, double from = 0,
+                    bool to_minimum = false) {
   Kinked system(stiffer, from);
   NewtonDirection direction;
   direction.slope = 1;
@@ -347,6 +370,7 @@ SearchResult search(double stiffer, double merit, bool kinks, double from = 0) {
   rule.merit = merit;
   rule.flat_suffices = true;
   rule.kinks = kinks;
+  rule.to_minimum = to_minimum;
   return line_search(system, direction, rule);
 }
 }  // namespace
@@ -373,6 +397,23 @@ TEST(LineSearch, ReachesAKinkThatLiesOnTheWay) {
   ASSERT_TRUE(found.trial.has_value());
   EXPECT_LT(found.length, kink + 1e-4);
   EXPECT_GT(found.length, 0.6 * kink);
+}
+
+// Where steps repeat, a lower merit is not enough.
+TEST(LineSearch, SeeksTheMinimumOfTheEnergy) {
+  EXPECT_EQ(search(1.7, 1, true).length, 1);
+  for (const double stiffer : {1.7, 20.0}) {
+    for (const double kink : {0.0, 0.3}) {
+      const SearchResult found = search(stiffer, 1, true, kink, true);
+      ASSERT_TRUE(found.trial.has_value());
+      EXPECT_LE(std::abs(found.trial->seen.along), 0.1) << stiffer << " from " << kink;
+    }
+  }
+  EXPECT_EQ(search(0.5, 0, true, 0, true).length, 1) << "the energy still falls at the end";
+  const SearchResult steep = search(1e4, 1, true, 0.3, true);
+  ASSERT_TRUE(steep.trial.has_value());
+  EXPECT_LE(steep.trial->seen.along, 0) << "never past a minimum that is not found";
+  EXPECT_GT(steep.length, 0.1);
 }
 
 // How many updates the multipliers need says nothing of how far the plates may move at once.

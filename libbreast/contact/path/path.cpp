@@ -157,6 +157,7 @@ class Path {
 PathResult Path::follow(State& state) {
   if (solve_start(state)) {
     result_.end = close_plates();
+    if (result_.end == PathEnd::on_edge) return conclude(state);
     if (!settle() && !result_.points.empty()) {
       tolerance_ = options_.tolerance;
       result_.end = close_plates();
@@ -227,9 +228,11 @@ PathEnd Path::close_plates() {
       }
     }
     const CompressionTarget* target = may_end(*reached) ? passed(reached->point) : nullptr;
-    if (target != nullptr) return end_at(*target, std::move(*reached));
+    if (target != nullptr && most_on_edge(reached->point) <= options_.most_on_edge)
+      return end_at(*target, std::move(*reached));
     keep(*reached);
     trail_.advance(std::move(*reached));
+    if (target != nullptr) return PathEnd::on_edge;
   }
   return PathEnd::solve_limit;
 }

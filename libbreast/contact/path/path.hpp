@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,6 +42,10 @@ struct PathOptions {
   /// Returns the weight (N, along the beam, positive towards the detector) that no hand carries at a
   /// part of the way. If it is given, the plates' mid-plane follows the breast (mid_plane_move).
   std::function<double(double)> weight_N;
+  /// A path that passes a target ends there, unfinished, if more than this part of a plate's force lies
+  /// on its rounded edge: the plates are then placed elsewhere, and the exact end would cost as much as
+  /// the way to it.
+  double most_on_edge = std::numeric_limits<double>::infinity();
   /// Whether PathResult::kept is filled.
   bool keep = false;
 };
@@ -49,6 +54,7 @@ struct PathOptions {
 enum class PathEnd {
   target,          ///< a target was reached
   solve_limit,     ///< PathOptions::most_solves positions were solved
+  on_edge,         ///< a target was passed, with more on an edge than PathOptions::most_on_edge
   out_of_reach,    ///< the plates would have to close to less than PathOptions::least_thickness
   no_equilibrium,  ///< even the shortest step fails: PathResult::last_failure says why
 };

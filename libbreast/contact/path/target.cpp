@@ -19,6 +19,12 @@ std::vector<CompressionTarget> all_of(const CompressionTarget& target) {
 
 }  // namespace
 
+double most_on_edge(const PathPoint& point) {
+  const auto part = [](double edge, double force) { return force > 0 ? edge / force : 0; };
+  return std::max(part(point.paddle_edge_N, point.paddle_N),
+                  part(point.detector_edge_N, point.detector_N));
+}
+
 const char* target_name(TargetKind kind) {
   constexpr const char* names[] = {"thickness", "paddle force", "mean pressure", "contact area"};
   return names[int(kind)];

@@ -78,6 +78,7 @@ struct ContactStep : NewtonResult {
 struct ContactMemory {
   std::vector<signed char> touching;  ///< −1 free, 0 touches the paddle, 1 the detector
   std::vector<double> multipliers;    ///< µN per unit gap gradient
+  double deepest = 0;  ///< penetration of the last solution, mm; of plates that press on faces
   double penalty = 0;  ///< of the augmented Lagrangian, µN/mm; of plates that press on faces, Pa/mm
   /// Points at which friction holds the nodes, relative to the plate's shift, and the positions of
   /// free nodes, mm; with friction only.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "contact/faces.hpp"
 #include "solve/equilibrate.hpp"
@@ -31,6 +32,13 @@ constexpr int most_bounds = 12;
 /// If more than this fraction of the lag remains after the bounds have followed, they alternate: from
 /// then on they follow by half as much.
 constexpr double lag_kept = 0.7;
+/// After this number of iterations whose residual is not below this fraction of the best, steps go to
+/// the minimum of the energy.
+constexpr int patience = 6;
+constexpr double improvement = 0.9;
+/// Number of iterations that leave out the rotation of the forces after one whose tangent was indefinite
+/// with it.
+constexpr int without_rotation = 1;
 /// The contact area changes by a 64th of a face at a time, 0.1 to 0.3 % of the area.
 constexpr double relative_resolution = 5e-3;
 }  // namespace
@@ -60,6 +68,7 @@ class SurfaceContact::System final : public TangentSystem {
   bool begins_badly(const NewtonResult& so_far, double residual) const;
   double residual() const { return relative(forces_, problem_.constraints_at(state_.x)); }
   bool follow_bounds(double residual);
+  void count_stagnation(double residual);
   /// Unbalanced force relative to the force of the plates.
   double relative(const Forces& forces, const Constraints& held) const {
     return problem_.free_norm(held, forces) / scale_;
@@ -71,8 +80,11 @@ class SurfaceContact::System final : public TangentSystem {
   double followed_lag_ = std::numeric_limits<double>::infinity();  // when they last followed
   double following_part_ = 1;  // of the way to the bounds that the normal forces allow
   bool hurried_ = false;
+  double best_ = std::numeric_limits<double>::infinity();  // residual with the present bounds
+  int without_gain_ = 0;                                   // iterations since
   bool simplified_ = false;  // whether the tangent lacks the rotation of the forces
   int simplifications_ = 0;
+  int skipped_ = 0;  // further iterations that leave it out untried
 };
 
 Balance SurfaceContact::System::assess(const NewtonResult& so_far) {
@@ -84,8 +96,10 @@ Balance SurfaceContact::System::assess(const NewtonResult& so_far) {
   if (follow_bounds(now.residual)) {
     now.residual = residual();
     if (before_follow_ < 0) before_follow_ = int(so_far.iterations.size());
+    best_ = std::numeric_limits<double>::infinity();
   }
   now.merit = now.residual;
+  count_stagnation(now.residual);
   const SurfaceContactOptions& options = owner_.options_;
   now.converged = now.residual <= tolerance_ && problem_.volume_residual(forces_) <=
                                                     std::max(tolerance_, options.volume_tolerance);
@@ -103,6 +117,16 @@ Balance SurfaceContact::System::assess(const NewtonResult& so_far) {
   return now;
 }
 
+/// Full steps over the kinks of the plates' and the friction's forces may repeat.
+void SurfaceContact::System::count_stagnation(double residual) {
+  if (residual < improvement * best_) {
+    best_ = residual;
+    without_gain_ = 0;
+  } else {
+    ++without_gain_;
+  }
+}
+
 /// If the state is balanced well enough for its normal forces to be meaningful, the friction bounds
 /// follow them. Where a point comes and goes with its friction, the bounds alternate unless they
 /// follow only part of the way.
@@ -118,7 +142,9 @@ bool SurfaceContact::System::follow_bounds(double residual) {
   if (lag_ > lag_kept * followed_lag_) following_part_ *= 0.5;
   followed_lag_ = lag_;
   bounds.approach_from(owner_.memory_.bounds, following_part_);
-  change({owner_.friction_.get()}, [&] { owner_.adopt(std::move(bounds), state_); });
+  // A node deep in the rounded edge may turn its normal back and forth, and the bounds with it.
+  const bool alternates = following_part_ < 1;
+  change({owner_.friction_.get()}, [&] { owner_.adopt(std::move(bounds), state_, alternates); });
   return true;
 }
 
@@ -130,14 +156,14 @@ bool SurfaceContact::System::begins_badly(const NewtonResult& so_far, double res
 
 // Where a face rolls over an edge, the rotation of the plates' forces may make the tangent
 // indefinite. Without this rotation the tangent leads downhill just as well, and no shift is
-// needed.
+// needed. What an iteration finds is likely in the next as well, which is spared the trial.
 NewtonDirection SurfaceContact::System::direction(const Balance& now) {
   const NewtonDirection none{NewtonStop::indefinite, describe(NewtonStop::indefinite)};
   const double depth = now.residual < near_residual ? std::numeric_limits<double>::infinity()
                                                     : turning_depth * depth_;
+  const Constraints held = problem_.constraints_at(state_.x);
   owner_.pressure_->set_turning_depth(depth);
   if (!assemble()) return {NewtonStop::folded, describe(NewtonStop::folded)};
-  const Constraints held = problem_.constraints_at(state_.x);
   simplified_ = !factorise(held, false).ok;
   if (simplified_) {
     ++simplifications_;
@@ -157,6 +183,7 @@ LineSearchRule SurfaceContact::System::rule(const NewtonResult&, const Balance& 
   rule.flat_suffices = true;
   rule.downhill_suffices = direction.shift > 0 || simplified_;
   rule.kinks = true;
+  rule.to_minimum = without_gain_ >= patience && !rule.downhill_suffices;
   return rule;
 }
 
@@ -225,18 +252,24 @@ bool SurfaceContact::equilibrate(State& state, double tolerance, double depth, C
   return part.converged;
 }
 
-/// An equilibrium with the plates as stiff as they were at their last position; where there is none within
-/// reach, because the faces of the first guess lie too deep in them, with soft plates.
+/// An equilibrium with the plates as stiff as they were at their last position. Where there is none
+/// within reach, because the faces of the first guess lie too deep in them: with plates that press on
+/// the deepest point as much as before, and after that with the softest.
 bool SurfaceContact::begin(State& state, double tolerance, double allowed, ContactStep& step) {
-  if (fail_fast_ || !(memory_.penalty > options_.stiffness))
-    return equilibrate(state, tolerance, allowed, step);
   const State given = state;
   const ContactMemory memory = memory_;
-  if (equilibrate(state, tolerance, allowed, step)) return true;
-  state = given;
-  memory_ = memory;
-  memory_.penalty = options_.stiffness;
-  return equilibrate(state, tolerance, allowed, step);
+  const double guessed = pressure_->deepest(state.x);
+  std::vector<double> penalties{memory.penalty};
+  if (guessed > memory.deepest) penalties.push_back(memory.penalty * memory.deepest / guessed);
+  if (penalties.back() > options_.stiffness) penalties.push_back(options_.stiffness);
+  for (const double penalty : penalties) {
+    memory_ = memory;
+    memory_.penalty = std::max(penalty, options_.stiffness);
+    state = given;
+    if (equilibrate(state, tolerance, allowed, step)) return true;
+    if (fail_fast_) return false;
+  }
+  return false;
 }
 
 /// Increases the stiffness until no point lies too deep. Each solve begins at a state extrapolated from the
@@ -289,22 +322,30 @@ ContactStep SurfaceContact::solve(const PlatePair& plates, State& state, double 
     if (!equilibrate(state, tolerance, allowed, step)) return step;
     if (on_the_way || !pressure_->choose_points(state.x, true)) break;
   }
+  memory_.deepest = pressure_->deepest(state.x);
   finish(state, step);
   return step;
 }
 
 /// The nodes that the plates held in the last solve, with the normal forces of that solve and the
-/// plates' normals at `x`.
-void SurfaceContact::set_friction(const Eigen::VectorXd& x) {
+/// plates' normals at `x`; `keep_normals`: nodes that are held already keep theirs.
+void SurfaceContact::set_friction(const Eigen::VectorXd& x, bool keep_normals) {
   if (friction_ == nullptr) return;
+  std::map<std::pair<int, int>, Vec3> kept;  // by node and plate
+  for (const FrictionEntry& entry : friction_->entries()) {
+    if (keep_normals && entry.normal)
+      kept.emplace(std::pair(entry.node, entry.plate), *entry.normal);
+  }
   std::vector<FrictionEntry> held;
   for (std::size_t c = 0; c < candidates_.size(); ++c) {
     const int k = memory_.touching[c];
     if (k < 0 || !(memory_.bounds[c] > 0)) continue;
     const Plate& plate = pressure_->plates().plate(k);
+    const auto before = kept.find({candidates_[c], k});
     held.push_back({candidates_[c], k, memory_.anchors[c] + plate.shift(), memory_.bounds[c],
                     options_.friction.stick(memory_.bounds[c]),
-                    plate.gap(x.segment<3>(3L * candidates_[c])).gradient});
+                    before != kept.end() ? before->second
+                                         : plate.gap(x.segment<3>(3L * candidates_[c])).gradient});
   }
   friction_->set_plates(pressure_->plates());
   friction_->set_entries(std::move(held));
@@ -324,10 +365,10 @@ SurfaceContact::Bounds SurfaceContact::bounds_at(const Eigen::VectorXd& x) const
   return bounds;
 }
 
-void SurfaceContact::adopt(Bounds bounds, const State& state) {
+void SurfaceContact::adopt(Bounds bounds, const State& state, bool keep_normals) {
   for (std::size_t c = 0; c < candidates_.size(); ++c) hold(c, bounds.contacts[c].plate, state);
   memory_.bounds = std::move(bounds.values);
-  set_friction(state.x);
+  set_friction(state.x, keep_normals);
 }
 
 /// Anchors a node that has come into contact with a plate since the last solution at the place on

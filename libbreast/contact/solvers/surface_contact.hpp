@@ -65,9 +65,9 @@ class SurfaceContact : public ContactSolver {
   bool stiffen(State& state, double allowed, ContactStep& step);
   void finish(const State& state, ContactStep& step);
   std::vector<NodalContact> nodal_contacts(const Eigen::VectorXd& x) const;
-  void set_friction(const Eigen::VectorXd& x);
+  void set_friction(const Eigen::VectorXd& x, bool keep_normals = false);
   Bounds bounds_at(const Eigen::VectorXd& x) const;
-  void adopt(Bounds bounds, const State& state);
+  void adopt(Bounds bounds, const State& state, bool keep_normals);
   void hold(std::size_t c, int plate, const State& state);
   void move_anchors(const State& state, ContactStep& step);
 
