@@ -133,11 +133,12 @@ Outcome press(const Inputs& in, const HexMesh& near) {
   return out;
 }
 
-/// A view, how far the detector rises (mm), and by how many degrees the plates lean.
+/// A view, how far the detector rises (mm), and by how many degrees the plates lean and the patient
+/// bends forwards.
 struct Machine {
   View view;
   double detector_rise;
-  double lean_deg = 0;
+  double lean_deg = 0, bend_deg = 0;
 };
 
 class CompressedSensitivity : public testing::TestWithParam<Machine> {};
@@ -152,11 +153,15 @@ TEST_P(CompressedSensitivity, MatchesFiniteDifferencesAndItsAdjoint) {
   compression.angle_deg = view_angle_deg(GetParam().view);
   compression.plates.detector_rise = GetParam().detector_rise;
   compression.plates.lean_deg = GetParam().lean_deg;
+  compression.plates.bend_deg = GetParam().bend_deg;
   compression.stops = {{StopAt::reduction, 35}};
   ASSERT_TRUE(fixtures::compress_into(mesh, compression, in.options).converged());
   in.plates = recorded_plates(mesh);
   in.paddle_share = std::isinf(GetParam().detector_rise) ? 0.5 : 1;
   in.mesh.contact = mesh.contact;
+  EXPECT_EQ(mesh.contact->bend_deg, GetParam().bend_deg);
+  EXPECT_EQ((mesh.gravity - in.gravity).norm() > 0, GetParam().bend_deg > 0);
+  in.gravity = mesh.gravity;  // turns with the patient
   const SensitivityChain chain(mesh, imaged_pressure, in.imaged_gravity, in.options);
   EXPECT_GE(chain.contacts(), 10u);
   const auto picked = pick_parameters(
@@ -281,11 +286,13 @@ INSTANTIATE_TEST_SUITE_P(Skin, PressedFacesSensitivity,
 constexpr double raised = std::numeric_limits<double>::infinity();
 INSTANTIATE_TEST_SUITE_P(Machines, CompressedSensitivity,
                          testing::Values(Machine{View::cc, raised}, Machine{View::mlo, raised},
-                                         Machine{View::cc, 0.0}, Machine{View::mlo, raised, 12}),
+                                         Machine{View::cc, 0.0}, Machine{View::mlo, raised, 12},
+                                         Machine{View::cc, raised, 0, 10}),
                          [](const auto& test) {
                            return view_name(test.param.view) +
                                   (std::isinf(test.param.detector_rise) ? "" : "_detector_fixed") +
-                                  (test.param.lean_deg > 0 ? "_leaning" : "");
+                                  (test.param.lean_deg > 0 ? "_leaning" : "") +
+                                  (test.param.bend_deg > 0 ? "_bent_forwards" : "");
                          });
 
 }  // namespace
