@@ -32,18 +32,38 @@ double fat_limit(const Work& work, int i, int k) {
   return known ? work.wall.depth.at(i, k) - before_wall : work.torso.cleft[k] + behind_sternum;
 }
 
-/// Log level of suppressed fat on the working grid.
-Volume<float> level_of(const Work& work, const Volume<float>& scan) {
+/// One within a mask, 0 outside.
+Volume<float> as_share(const Mask& mask) {
+  Volume<float> share(mask.grid);
+  share.voxels.assign(mask.voxels.begin(), mask.voxels.end());
+  return share;
+}
+
+/// Within `reach` mm of a mask.
+Mask wider(const Mask& mask, double reach) {
+  const Volume<float> value = box_maximum(as_share(mask), reach);
+  Mask out(mask.grid);
+  for (std::size_t n = 0; n < out.voxels.size(); ++n) out.voxels[n] = value.voxels[n] > 0;
+  return out;
+}
+
+constexpr double by_failed = 10;  // mm: over these, failed suppression ends
+
+/// Log level of suppressed fat on the working grid. Near fat that is not suppressed (`failed`, may be empty) there is
+/// none, and what is darkest there, muscle or gland, must not be taken for it: the level is continued from around.
+Volume<float> level_of(const Work& work, const Volume<float>& scan, const Mask& failed) {
   const Volume<float> coarse = coarsened(scan, {2, 2, 1});
   const Volume<float> distance = resampled(work.skin_distance, coarse.grid);
   const Grid& grid = coarse.grid;
+  Volume<float> beside(grid);
+  if (!failed.voxels.empty()) beside = resampled(as_share(wider(failed, by_failed)), grid);
   Mask allowed(grid);
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int i = 0; i < grid.size[0]; ++i) {
       const double limit = fat_limit(work, std::min(2 * i, scan.grid.size[0] - 1), k);
       for (int j = 0; j < grid.size[1]; ++j)
-        allowed.at(i, j, k) =
-            distance.at(i, j, k) < 0 && (2 * j + 0.5) * scan.grid.spacing[1] < limit;
+        allowed.at(i, j, k) = distance.at(i, j, k) < 0 && !(beside.at(i, j, k) > 0.5f) &&
+                              (2 * j + 0.5) * scan.grid.spacing[1] < limit;
     }
   }
   return resampled(suppressed_level(coarse, allowed, distance).log_bias, scan.grid);
@@ -150,25 +170,11 @@ struct Shown {
 };
 
 Mask resampled_mask(const Mask& coarse, const Grid& fine) {
-  Volume<float> share(coarse.grid);
-  share.voxels.assign(coarse.voxels.begin(), coarse.voxels.end());
-  share = resampled(share, fine);
+  const Volume<float> share = resampled(as_share(coarse), fine);
   Mask out(fine);
   for (std::size_t n = 0; n < out.voxels.size(); ++n) out.voxels[n] = share.voxels[n] > 0.5f;
   return out;
 }
-
-/// Within `reach` mm of a mask.
-Mask wider(const Mask& mask, double reach) {
-  Volume<float> value(mask.grid);
-  value.voxels.assign(mask.voxels.begin(), mask.voxels.end());
-  value = box_maximum(value, reach);
-  Mask out(mask.grid);
-  for (std::size_t n = 0; n < out.voxels.size(); ++n) out.voxels[n] = value.voxels[n] > 0;
-  return out;
-}
-
-constexpr double by_failed = 10;  // mm: over these, failed suppression ends
 
 /// Where suppression fades, fat has any brightness, that of gland as well: between fat that is
 /// suppressed and fat that is not.
@@ -276,19 +282,34 @@ std::string refusal_of_skin(const FatContrast& contrast) {
       "a second scan of the same examination that shows it (--also)");
 }
 
+namespace {
+
+/// Sets the level of fat and where it is not suppressed. Returns the scan relative to that level.
+Volume<float> find_level(SuppressedFat& fat, const Work& work, const Volume<float>& scan) {
+  const bool wall_known = work.wall.depth.nx > 0;
+  const auto once = [&] {
+    fat.log_level = level_of(work, scan, fat.failed);
+    Volume<float> relative = relative_to(fat.log_level, scan);
+    // Until a wall is known, the muscle behind it is taken for little brighter than fat, since more
+    // would hide it, and skin says how bright water is.
+    const double water = wall_known ? water_behind(work, relative) : brightness_of_skin(work, relative);
+    if (wall_known) fat.water = water;
+    find_failed(fat, work, relative, water);
+    return relative;
+  };
+  Volume<float> relative = once();
+  // The first level was sought beside failed suppression, too.
+  return wall_known || !(fat.failed_ml > 0) ? relative : once();
+}
+
+}  // namespace
+
 SuppressedFat find_suppressed_wall(Work& work, Progress& progress, Timer& timer) {
   constexpr int rounds = 3;
   const Volume<float> scan = work.scan;
   SuppressedFat fat;
   for (int round = 0; round < rounds; ++round) {
-    fat.log_level = level_of(work, scan);
-    const Volume<float> relative = relative_to(fat.log_level, scan);
-    // Until a wall is known, the muscle behind it is taken for little brighter than fat, since more
-    // would hide it, and skin says how bright water is.
-    const double water =
-        round == 0 ? brightness_of_skin(work, relative) : water_behind(work, relative);
-    if (round > 0) fat.water = water;
-    find_failed(fat, work, relative, water);
+    const Volume<float> relative = find_level(fat, work, scan);
     work.scan = shown(relative, work.skin_distance, fat.failed,
                       {fat.water, muscle_as_in_t1, fat.failed_brightness});
     work.wall = {};
@@ -330,7 +351,7 @@ Volume<float> shown_for_gland(const Volume<float>& scan, const Work& work, const
 }  // namespace
 
 void show_gland(Work& work, const Volume<float>& scan, Images& images, SuppressedFat& fat) {
-  fat.log_level = level_of(work, scan);
+  fat.log_level = level_of(work, scan, fat.failed);
   const Volume<float> relative = relative_to(fat.log_level, scan);
   find_failed(fat, work, relative, fat.water);
   fat.gland = brightness_of_gland(work, relative, wider(fat.failed, by_failed), fat.water);
