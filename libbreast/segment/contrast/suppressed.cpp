@@ -176,21 +176,39 @@ Mask resampled_mask(const Mask& coarse, const Grid& fine) {
   return out;
 }
 
-/// Where suppression fades, fat has any brightness, that of gland as well: between fat that is
-/// suppressed and fat that is not.
-Mask fading(const Volume<float>& relative, const Volume<float>& skin_distance,
+/// Change per mm of a volume at a voxel off its border.
+Vec3 slope_at(const Volume<float>& volume, int i, int j, int k) {
+  const Vec3& spacing = volume.grid.spacing;
+  return Vec3(volume.at(i + 1, j, k) - volume.at(i - 1, j, k),
+              volume.at(i, j + 1, k) - volume.at(i, j - 1, k),
+              volume.at(i, j, k + 1) - volume.at(i, j, k - 1))
+      .cwiseQuotient(2 * spacing);
+}
+
+/// Where suppression fades, fat has any brightness, that of gland as well. Such fat brightens steadily towards where it
+/// is not suppressed; gland and muscle do not.
+Mask fading(const Volume<float>& relative, const Volume<float>& skin_distance, const Mask& failed,
             const Mask& near_failed) {
-  constexpr double skin = 4, smooth = 1.5;  // mm
-  constexpr float darkest = 0.6f, brightest = 1.2f;
-  const Volume<float> smoothed = gaussian(relative, smooth);
-  Mask fat(relative.grid);
-  for (std::size_t n = 0; n < fat.voxels.size(); ++n) {
-    const float r = smoothed.voxels[n];
-    fat.voxels[n] = skin_distance.voxels[n] < -skin && r > darkest && r < brightest;
+  constexpr double skin = 4, smooth = 1.5, wide = 8;  // mm
+  constexpr double steady = 0.12;                     // of the logarithm, per mm
+  constexpr double edge = 0.02;  // per mm, of the share of failed suppression: 0.05 at its edge
+  constexpr double least_cosine = 0.7;
+  const Volume<float> share = gaussian(as_share(failed), wide);
+  Volume<float> logs = gaussian(relative, smooth);
+  for (float& value : logs.voxels) value = elementary::log(std::max(value, 0.1f));
+  const Grid& grid = relative.grid;
+  Mask fat(grid);
+  for (int k = 1; k + 1 < grid.size[2]; ++k) {
+    for (int j = 1; j + 1 < grid.size[1]; ++j) {
+      for (int i = 1; i + 1 < grid.size[0]; ++i) {
+        if (!near_failed.at(i, j, k) || skin_distance.at(i, j, k) > -skin) continue;
+        const Vec3 towards = slope_at(share, i, j, k), brighter = slope_at(logs, i, j, k);
+        const double along = towards.dot(brighter) / std::max(towards.norm(), 1e-9);
+        fat.at(i, j, k) = towards.norm() > edge && along > steady &&
+                          along > least_cosine * brighter.norm();
+      }
+    }
   }
-  fat = wider(fat, by_failed);
-  for (std::size_t n = 0; n < fat.voxels.size(); ++n)
-    fat.voxels[n] = fat.voxels[n] && near_failed.voxels[n];
   return fat;
 }
 
@@ -200,7 +218,7 @@ Volume<float> shown(const Volume<float>& relative, const Volume<float>& skin_dis
   constexpr double by_skin = 3;  // mm
   const bool any = as.failed_fat > 1;
   const Mask near = any ? wider(failed, by_failed) : failed,
-             between = any ? fading(relative, skin_distance, near) : failed;
+             between = any ? fading(relative, skin_distance, failed, near) : failed;
   Volume<float> out(relative.grid);
   for (std::size_t n = 0; n < out.voxels.size(); ++n) {
     const float r = relative.voxels[n], d = skin_distance.voxels[n];
