@@ -317,7 +317,7 @@ TEST(Segment, AWallInsideTheBreastIsRefused) {
   const double sternal_skin = truth.wall(0, 0) - SyntheticScan::fat_layer;
   const Volume<float> scan = truth.image_of([&](const Vec3& p) {
     const double signal = truth.signal(p);
-    return signal > 0.35 && p[1] > sternal_skin - 22 && truth.in_ellipsoid(p, 0.95) ? 0.35 : signal;
+    return signal > 0.35 && p[1] > sternal_skin - 18 && truth.in_ellipsoid(p, 0.95) ? 0.35 : signal;
   });
   try {
     run(scan, SegmentOptions{});
