@@ -49,23 +49,42 @@ Mask wider(const Mask& mask, double reach) {
 
 constexpr double by_failed = 10;  // mm: over these, failed suppression ends
 
+/// The part of a mask that does not lie near failed suppression. Throws Error (input) if that leaves hardly any.
+Mask clear_of(const Mask& failed, const Mask& anywhere) {
+  constexpr double most_near = 0.8;
+  const Volume<float> beside = resampled(as_share(wider(failed, by_failed)), anywhere.grid);
+  Mask clear = anywhere;
+  for (std::size_t n = 0; n < clear.voxels.size(); ++n)
+    if (beside.voxels[n] > 0.5f) clear.voxels[n] = 0;
+  const auto count = [](const Mask& mask) {
+    return double(std::count(mask.voxels.begin(), mask.voxels.end(), 1));
+  };
+  const double near = 1 - count(clear) / std::max(1.0, count(anywhere));
+  if (near > most_near)
+    throw input_error(
+        "fat is not suppressed beside ", std::lround(100 * near),
+        " % of the tissue below the skin (at most ", std::lround(100 * most_near),
+        " %), so that the brightness of suppressed fat is unknown: give a second scan of the same "
+        "examination that shows fat bright, such as T1 (--also)");
+  return clear;
+}
+
 /// Log level of suppressed fat on the working grid. Near fat that is not suppressed (`failed`, may be empty) there is
 /// none, and what is darkest there, muscle or gland, must not be taken for it: the level is continued from around.
 Volume<float> level_of(const Work& work, const Volume<float>& scan, const Mask& failed) {
   const Volume<float> coarse = coarsened(scan, {2, 2, 1});
   const Volume<float> distance = resampled(work.skin_distance, coarse.grid);
   const Grid& grid = coarse.grid;
-  Volume<float> beside(grid);
-  if (!failed.voxels.empty()) beside = resampled(as_share(wider(failed, by_failed)), grid);
-  Mask allowed(grid);
+  Mask anywhere(grid);
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int i = 0; i < grid.size[0]; ++i) {
       const double limit = fat_limit(work, std::min(2 * i, scan.grid.size[0] - 1), k);
       for (int j = 0; j < grid.size[1]; ++j)
-        allowed.at(i, j, k) = distance.at(i, j, k) < 0 && !(beside.at(i, j, k) > 0.5f) &&
-                              (2 * j + 0.5) * scan.grid.spacing[1] < limit;
+        anywhere.at(i, j, k) =
+            distance.at(i, j, k) < 0 && (2 * j + 0.5) * scan.grid.spacing[1] < limit;
     }
   }
+  const Mask allowed = failed.voxels.empty() ? anywhere : clear_of(failed, anywhere);
   return resampled(suppressed_level(coarse, allowed, distance).log_bias, scan.grid);
 }
 
