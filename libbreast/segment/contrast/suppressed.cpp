@@ -62,7 +62,7 @@ Mask clear_of(const Mask& failed, const Mask& anywhere) {
   const double near = 1 - count(clear) / std::max(1.0, count(anywhere));
   if (near > most_near)
     throw input_error(
-        "fat is not suppressed beside ", std::lround(100 * near),
+        "tissue as bright as fat that is not suppressed lies beside ", std::lround(100 * near),
         " % of the tissue below the skin (at most ", std::lround(100 * most_near),
         " %), so that the brightness of suppressed fat is unknown: give a second scan of the same "
         "examination that shows fat bright, such as T1 (--also)");
