@@ -311,6 +311,24 @@ TEST(Segment, ScansWithoutABreastAreRefusedInOneLine) {
   EXPECT_NE(refusal(noise), "");
 }
 
+TEST(Segment, AWallInsideTheBreastIsRefused) {
+  // As dark as muscle, the back half of the breast is taken for it.
+  const SyntheticScan truth = SyntheticScan::coarse();
+  const double sternal_skin = truth.wall(0, 0) - SyntheticScan::fat_layer;
+  const Volume<float> scan = truth.image_of([&](const Vec3& p) {
+    const double signal = truth.signal(p);
+    return signal > 0.35 && p[1] > sternal_skin - 18 && truth.in_ellipsoid(p, 0.95) ? 0.35 : signal;
+  });
+  try {
+    run(scan, SegmentOptions{});
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 2);
+    EXPECT_EQ(std::string(error.what()).find("the chest wall was found inside the breast"), 0u)
+        << error.what();
+  }
+}
+
 /// Exact answer on a single row by dynamic programming; a level outside a column's range is
 /// infinitely expensive.
 double chain_optimum(const SurfaceProblem& problem, int levels) {

@@ -81,6 +81,7 @@ INSTANTIATE_TEST_SUITE_P(
         Header{"inches", "kinds", "space units: \"in\" \"in\" \"in\"", "\"in\""},
         Header{"two_units", "kinds", "space units: \"mm\" \"m\" \"mm\"", "one unit"},
         Header{"no_origin", "space origin", "", "states no space origin"},
+        Header{"commas", "space origin", "space origin: (-30,5,12,25,40,125)", "space origin"},
         Header{"one_slice_less", "sizes", "sizes: 6 5 3", "header announces 180"},
         Header{"one_slice_more", "sizes", "sizes: 6 5 5", "header announces 300"},
         Header{"skipped_lines", "kinds", "line skip: 1", "to be skipped"},
@@ -121,6 +122,8 @@ INSTANTIATE_TEST_SUITE_P(
         Header{"device", "ElementDataFile", "ElementDataFile = /dev/zero", "own folder"},
         Header{"list", "ElementDataFile", "ElementDataFile = LIST", "one"},
         Header{"no_offset", "Offset", "", "states no Offset"},
+        Header{"commas", "Offset", "Offset = -30,5 12,25 40,125", "three finite numbers"},
+        Header{"commas_in_size", "ElementSpacing", "ElementSpacing = 0,75 1,25 2,5", "voxel size"},
         Header{"one_slice_less", "DimSize", "DimSize = 6 5 3",
                "240 bytes, but the header announces 180"},
         Header{"one_slice_more", "DimSize", "DimSize = 6 5 5", "truncated"},
@@ -360,18 +363,30 @@ TEST(VolumeHeaders, VoxelsInAFileOfTheSameFolderAreRead) {
   }
 }
 
-TEST(VolumeHeaders, RasIsTurnedIntoLps) {
+TEST(VolumeHeaders, OtherSpacesAreTurnedIntoLps) {
+  struct Space {
+    const char *name, *directions, *origin;
+  };
   const ScratchFolder folder;
   write_volume(folder / "lps.nrrd", small_volume());
-  std::string text = read_text(folder / "lps.nrrd");
-  text = with_line(text, "space:", "space: right-anterior-superior");
-  text = with_line(text, "space directions", "space directions: (-0.75,0,0) (0,-1.25,0) (0,0,2.5)");
-  text = with_line(text, "space origin", "space origin: (30.5,-12.25,40.125)");
-  write_text(folder / "ras.nrrd", text);
-  const Grid lps = read_volume(folder / "lps.nrrd").grid,
-             ras = read_volume(folder / "ras.nrrd").grid;
-  EXPECT_LT((lps.origin - ras.origin).norm(), 1e-9);
-  EXPECT_LT((lps.direction - ras.direction).norm(), 1e-9);
+  const Volume<float> lps = read_volume(folder / "lps.nrrd");
+  for (const Space& space :
+       {Space{"right-anterior-superior", "(-0.75,0,0) (0,-1.25,0) (0,0,2.5)",
+              "(30.5,-12.25,40.125)"},
+        Space{"left-anterior-superior", "(0.75,0,0) (0,-1.25,0) (0,0,2.5)",
+              "(-30.5,-12.25,40.125)"},
+        Space{"LAS", "(0.75,0,0) (0,-1.25,0) (0,0,2.5)", "(-30.5,-12.25,40.125)"}}) {
+    std::string text = read_text(folder / "lps.nrrd");
+    text = with_line(text, "space:", std::string("space: ") + space.name);
+    text =
+        with_line(text, "space directions", std::string("space directions: ") + space.directions);
+    text = with_line(text, "space origin", std::string("space origin: ") + space.origin);
+    write_text(folder / "other.nrrd", text);
+    const Volume<float> other = read_volume(folder / "other.nrrd");
+    EXPECT_LT((lps.grid.origin - other.grid.origin).norm(), 1e-9) << space.name;
+    EXPECT_LT((lps.grid.direction - other.grid.direction).norm(), 1e-9) << space.name;
+    EXPECT_EQ(lps.voxels, other.voxels) << space.name;
+  }
 }
 
 // A stream of zeros a thousand times larger than what the header accounts for.
@@ -450,6 +465,10 @@ TEST_F(DicomHeaders, WithoutPixelSpacing) {
 TEST_F(DicomHeaders, WithPixelSpacingZero) {
   change("1.25\\0.75", "0.00\\0.75");
   expect("pixel spacing 0");
+}
+TEST_F(DicomHeaders, WithDecimalCommas) {
+  change("1.25\\0.75", "1,25\\0,75");
+  expect("states no pixel spacing of two numbers");
 }
 TEST_F(DicomHeaders, WithOneSliceOfAnotherSpacing) {
   change("1.25\\0.75", "1.35\\0.75", 3, 3);

@@ -32,20 +32,59 @@ double fat_limit(const Work& work, int i, int k) {
   return known ? work.wall.depth.at(i, k) - before_wall : work.torso.cleft[k] + behind_sternum;
 }
 
-/// Log level of suppressed fat on the working grid.
-Volume<float> level_of(const Work& work, const Volume<float>& scan) {
+/// One within a mask, 0 outside.
+Volume<float> as_share(const Mask& mask) {
+  Volume<float> share(mask.grid);
+  share.voxels.assign(mask.voxels.begin(), mask.voxels.end());
+  return share;
+}
+
+/// Within `reach` mm of a mask.
+Mask wider(const Mask& mask, double reach) {
+  const Volume<float> value = box_maximum(as_share(mask), reach);
+  Mask out(mask.grid);
+  for (std::size_t n = 0; n < out.voxels.size(); ++n) out.voxels[n] = value.voxels[n] > 0;
+  return out;
+}
+
+constexpr double by_failed = 10;  // mm: over these, failed suppression ends
+
+/// The part of a mask that does not lie near failed suppression. Throws Error (input) if that leaves hardly any.
+Mask clear_of(const Mask& failed, const Mask& anywhere) {
+  constexpr double most_near = 0.8;
+  const Volume<float> beside = resampled(as_share(wider(failed, by_failed)), anywhere.grid);
+  Mask clear = anywhere;
+  for (std::size_t n = 0; n < clear.voxels.size(); ++n)
+    if (beside.voxels[n] > 0.5f) clear.voxels[n] = 0;
+  const auto count = [](const Mask& mask) {
+    return double(std::count(mask.voxels.begin(), mask.voxels.end(), 1));
+  };
+  const double near = 1 - count(clear) / std::max(1.0, count(anywhere));
+  if (near > most_near)
+    throw input_error(
+        "tissue as bright as fat that is not suppressed lies beside ", std::lround(100 * near),
+        " % of the tissue below the skin (at most ", std::lround(100 * most_near),
+        " %), so that the brightness of suppressed fat is unknown: give a second scan of the same "
+        "examination that shows fat bright, such as T1 (--also)");
+  return clear;
+}
+
+/// Log level of suppressed fat on the working grid. Near fat that is not suppressed (`failed`, may be empty) there is
+/// none, and what is darkest there, muscle or gland, must not be taken for it: the level is continued from around.
+Volume<float> level_of(const Work& work, const Volume<float>& scan, const Mask& failed) {
   const Volume<float> coarse = coarsened(scan, {2, 2, 1});
   const Volume<float> distance = resampled(work.skin_distance, coarse.grid);
   const Grid& grid = coarse.grid;
-  Mask allowed(grid);
+  Mask anywhere(grid);
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int i = 0; i < grid.size[0]; ++i) {
       const double limit = fat_limit(work, std::min(2 * i, scan.grid.size[0] - 1), k);
       for (int j = 0; j < grid.size[1]; ++j)
-        allowed.at(i, j, k) =
+        anywhere.at(i, j, k) =
             distance.at(i, j, k) < 0 && (2 * j + 0.5) * scan.grid.spacing[1] < limit;
     }
   }
+  const Mask allowed = failed.voxels.empty() ? anywhere : clear_of(failed, anywhere);
   return resampled(suppressed_level(coarse, allowed, distance).log_bias, scan.grid);
 }
 
@@ -150,41 +189,45 @@ struct Shown {
 };
 
 Mask resampled_mask(const Mask& coarse, const Grid& fine) {
-  Volume<float> share(coarse.grid);
-  share.voxels.assign(coarse.voxels.begin(), coarse.voxels.end());
-  share = resampled(share, fine);
+  const Volume<float> share = resampled(as_share(coarse), fine);
   Mask out(fine);
   for (std::size_t n = 0; n < out.voxels.size(); ++n) out.voxels[n] = share.voxels[n] > 0.5f;
   return out;
 }
 
-/// Within `reach` mm of a mask.
-Mask wider(const Mask& mask, double reach) {
-  Volume<float> value(mask.grid);
-  value.voxels.assign(mask.voxels.begin(), mask.voxels.end());
-  value = box_maximum(value, reach);
-  Mask out(mask.grid);
-  for (std::size_t n = 0; n < out.voxels.size(); ++n) out.voxels[n] = value.voxels[n] > 0;
-  return out;
+/// Change per mm of a volume at a voxel off its border.
+Vec3 slope_at(const Volume<float>& volume, int i, int j, int k) {
+  const Vec3& spacing = volume.grid.spacing;
+  return Vec3(volume.at(i + 1, j, k) - volume.at(i - 1, j, k),
+              volume.at(i, j + 1, k) - volume.at(i, j - 1, k),
+              volume.at(i, j, k + 1) - volume.at(i, j, k - 1))
+      .cwiseQuotient(2 * spacing);
 }
 
-constexpr double by_failed = 10;  // mm: over these, failed suppression ends
-
-/// Where suppression fades, fat has any brightness, that of gland as well: between fat that is
-/// suppressed and fat that is not.
-Mask fading(const Volume<float>& relative, const Volume<float>& skin_distance,
+/// Where suppression fades, fat has any brightness, that of gland as well. Such fat brightens steadily towards where it
+/// is not suppressed; gland and muscle do not.
+Mask fading(const Volume<float>& relative, const Volume<float>& skin_distance, const Mask& failed,
             const Mask& near_failed) {
-  constexpr double skin = 4, smooth = 1.5;  // mm
-  constexpr float darkest = 0.6f, brightest = 1.2f;
-  const Volume<float> smoothed = gaussian(relative, smooth);
-  Mask fat(relative.grid);
-  for (std::size_t n = 0; n < fat.voxels.size(); ++n) {
-    const float r = smoothed.voxels[n];
-    fat.voxels[n] = skin_distance.voxels[n] < -skin && r > darkest && r < brightest;
+  constexpr double skin = 4, smooth = 1.5, wide = 8;  // mm
+  constexpr double steady = 0.12;                     // of the logarithm, per mm
+  constexpr double edge = 0.02;  // per mm, of the share of failed suppression: 0.05 at its edge
+  constexpr double least_cosine = 0.7;
+  const Volume<float> share = gaussian(as_share(failed), wide);
+  Volume<float> logs = gaussian(relative, smooth);
+  for (float& value : logs.voxels) value = elementary::log(std::max(value, 0.1f));
+  const Grid& grid = relative.grid;
+  Mask fat(grid);
+  for (int k = 1; k + 1 < grid.size[2]; ++k) {
+    for (int j = 1; j + 1 < grid.size[1]; ++j) {
+      for (int i = 1; i + 1 < grid.size[0]; ++i) {
+        if (!near_failed.at(i, j, k) || skin_distance.at(i, j, k) > -skin) continue;
+        const Vec3 towards = slope_at(share, i, j, k), brighter = slope_at(logs, i, j, k);
+        const double along = towards.dot(brighter) / std::max(towards.norm(), 1e-9);
+        fat.at(i, j, k) =
+            towards.norm() > edge && along > steady && along > least_cosine * brighter.norm();
+      }
+    }
   }
-  fat = wider(fat, by_failed);
-  for (std::size_t n = 0; n < fat.voxels.size(); ++n)
-    fat.voxels[n] = fat.voxels[n] && near_failed.voxels[n];
   return fat;
 }
 
@@ -194,7 +237,7 @@ Volume<float> shown(const Volume<float>& relative, const Volume<float>& skin_dis
   constexpr double by_skin = 3;  // mm
   const bool any = as.failed_fat > 1;
   const Mask near = any ? wider(failed, by_failed) : failed,
-             between = any ? fading(relative, skin_distance, near) : failed;
+             between = any ? fading(relative, skin_distance, failed, near) : failed;
   Volume<float> out(relative.grid);
   for (std::size_t n = 0; n < out.voxels.size(); ++n) {
     const float r = relative.voxels[n], d = skin_distance.voxels[n];
@@ -276,19 +319,35 @@ std::string refusal_of_skin(const FatContrast& contrast) {
       "a second scan of the same examination that shows it (--also)");
 }
 
+namespace {
+
+/// Sets the level of fat and where it is not suppressed. Returns the scan relative to that level.
+Volume<float> find_level(SuppressedFat& fat, const Work& work, const Volume<float>& scan) {
+  const bool wall_known = work.wall.depth.nx > 0;
+  const auto once = [&] {
+    fat.log_level = level_of(work, scan, fat.failed);
+    Volume<float> relative = relative_to(fat.log_level, scan);
+    // Until a wall is known, the muscle behind it is taken for little brighter than fat, since more
+    // would hide it, and skin says how bright water is.
+    const double water =
+        wall_known ? water_behind(work, relative) : brightness_of_skin(work, relative);
+    if (wall_known) fat.water = water;
+    find_failed(fat, work, relative, water);
+    return relative;
+  };
+  Volume<float> relative = once();
+  // The first level was sought beside failed suppression, too.
+  return wall_known || !(fat.failed_ml > 0) ? relative : once();
+}
+
+}  // namespace
+
 SuppressedFat find_suppressed_wall(Work& work, Progress& progress, Timer& timer) {
   constexpr int rounds = 3;
   const Volume<float> scan = work.scan;
   SuppressedFat fat;
   for (int round = 0; round < rounds; ++round) {
-    fat.log_level = level_of(work, scan);
-    const Volume<float> relative = relative_to(fat.log_level, scan);
-    // Until a wall is known, the muscle behind it is taken for little brighter than fat, since more
-    // would hide it, and skin says how bright water is.
-    const double water =
-        round == 0 ? brightness_of_skin(work, relative) : water_behind(work, relative);
-    if (round > 0) fat.water = water;
-    find_failed(fat, work, relative, water);
+    const Volume<float> relative = find_level(fat, work, scan);
     work.scan = shown(relative, work.skin_distance, fat.failed,
                       {fat.water, muscle_as_in_t1, fat.failed_brightness});
     work.wall = {};
@@ -330,7 +389,7 @@ Volume<float> shown_for_gland(const Volume<float>& scan, const Work& work, const
 }  // namespace
 
 void show_gland(Work& work, const Volume<float>& scan, Images& images, SuppressedFat& fat) {
-  fat.log_level = level_of(work, scan);
+  fat.log_level = level_of(work, scan, fat.failed);
   const Volume<float> relative = relative_to(fat.log_level, scan);
   find_failed(fat, work, relative, fat.water);
   fat.gland = brightness_of_gland(work, relative, wider(fat.failed, by_failed), fat.water);
@@ -361,8 +420,8 @@ std::string refusal_of_muscle(const MuscleOverFat& muscle) {
 std::string refusal_of(const SuppressedFat& fat) {
   const std::string muscle = refusal_of_muscle(fat.muscle);
   if (!muscle.empty()) return muscle;
-  // At 2, one wall of three is 6 mm off and gland of the others a fifth or more too small; at 4 most are right.
-  constexpr double least_beside_failed = 3;
+  // At 2, walls of known anatomies are as right as without failure; less was not tried.
+  constexpr double least_beside_failed = 1.7;
   if (fat.failed_ml > 0 && fat.muscle.median < least_beside_failed)
     return message("fat is not suppressed in ", std::lround(fat.failed_ml),
                    " ml, and elsewhere muscle is ", format_fixed(fat.muscle.median, 2),

@@ -47,7 +47,7 @@ void show_gland(Work& work, const Volume<float>& scan, Images& images, Suppresse
 /// muscle is less than 1.2 times as bright as fat, or less bright than fat in some place, the
 /// errors of the wall grow from below one millimetre to centimetres while its confidence stays.
 /// More than 4.5 times, nothing but water is left, which suppression does not reach. Where fat is not
-/// suppressed in some place, its level is less sure elsewhere too, and muscle has to be 3 times as bright.
+/// suppressed in some place, its level is less sure elsewhere too, and muscle has to be 1.7 times as bright.
 std::string refusal_of(const SuppressedFat& fat);
 
 /// Where fat is not suppressed, it is hardly told from gland, and the level beside it may not hold: within 10 mm of
