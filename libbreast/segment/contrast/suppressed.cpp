@@ -49,42 +49,35 @@ Mask wider(const Mask& mask, double reach) {
 
 constexpr double by_failed = 10;  // mm: over these, failed suppression ends
 
-/// The part of a mask that does not lie near failed suppression. Throws Error (input) if that leaves hardly any.
-Mask clear_of(const Mask& failed, const Mask& anywhere) {
-  constexpr double most_near = 0.8;
-  const Volume<float> beside = resampled(as_share(wider(failed, by_failed)), anywhere.grid);
-  Mask clear = anywhere;
-  for (std::size_t n = 0; n < clear.voxels.size(); ++n)
-    if (beside.voxels[n] > 0.5f) clear.voxels[n] = 0;
-  const auto count = [](const Mask& mask) {
-    return double(std::count(mask.voxels.begin(), mask.voxels.end(), 1));
-  };
-  const double near = 1 - count(clear) / std::max(1.0, count(anywhere));
-  if (near > most_near)
-    throw input_error(
-        "tissue as bright as fat that is not suppressed lies beside ", std::lround(100 * near),
-        " % of the tissue below the skin (at most ", std::lround(100 * most_near),
-        " %), so that the brightness of suppressed fat is unknown: give a second scan of the same "
-        "examination that shows fat bright, such as T1 (--also)");
-  return clear;
-}
+/// Nearer to failed suppression than this share of the tissue below the skin, no level of suppressed fat
+/// is left to be found.
+constexpr double most_near_failed = 0.8;
 
-/// Log level of suppressed fat on the working grid. Near fat that is not suppressed (`failed`, may be empty) there is
-/// none, and what is darkest there, muscle or gland, must not be taken for it: the level is continued from around.
-Volume<float> level_of(const Work& work, const Volume<float>& scan, const Mask& failed) {
+/// Log level of suppressed fat on the working grid. Near fat that is not suppressed (`fat.failed`, may be
+/// empty) there is none, and what is darkest there, muscle or gland, must not be taken for it: the level is
+/// continued from around, if enough is left. Sets `fat.near_failed`.
+Volume<float> level_of(const Work& work, const Volume<float>& scan, SuppressedFat& fat) {
   const Volume<float> coarse = coarsened(scan, {2, 2, 1});
   const Volume<float> distance = resampled(work.skin_distance, coarse.grid);
   const Grid& grid = coarse.grid;
-  Mask anywhere(grid);
+  Volume<float> beside(grid);
+  if (!fat.failed.voxels.empty()) beside = resampled(as_share(wider(fat.failed, by_failed)), grid);
+  Mask anywhere(grid), clear(grid);
+  double tissue = 0, near = 0;
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int i = 0; i < grid.size[0]; ++i) {
       const double limit = fat_limit(work, std::min(2 * i, scan.grid.size[0] - 1), k);
-      for (int j = 0; j < grid.size[1]; ++j)
-        anywhere.at(i, j, k) =
-            distance.at(i, j, k) < 0 && (2 * j + 0.5) * scan.grid.spacing[1] < limit;
+      for (int j = 0; j < grid.size[1]; ++j) {
+        if (!(distance.at(i, j, k) < 0 && (2 * j + 0.5) * scan.grid.spacing[1] < limit)) continue;
+        anywhere.at(i, j, k) = 1;
+        clear.at(i, j, k) = !(beside.at(i, j, k) > 0.5f);
+        tissue += 1;
+        near += !clear.at(i, j, k);
+      }
     }
   }
-  const Mask allowed = failed.voxels.empty() ? anywhere : clear_of(failed, anywhere);
+  fat.near_failed = near / std::max(1.0, tissue);
+  const Mask& allowed = fat.near_failed > most_near_failed ? anywhere : clear;
   return resampled(suppressed_level(coarse, allowed, distance).log_bias, scan.grid);
 }
 
@@ -325,7 +318,7 @@ namespace {
 Volume<float> find_level(SuppressedFat& fat, const Work& work, const Volume<float>& scan) {
   const bool wall_known = work.wall.depth.nx > 0;
   const auto once = [&] {
-    fat.log_level = level_of(work, scan, fat.failed);
+    fat.log_level = level_of(work, scan, fat);
     Volume<float> relative = relative_to(fat.log_level, scan);
     // Until a wall is known, the muscle behind it is taken for little brighter than fat, since more
     // would hide it, and skin says how bright water is.
@@ -389,7 +382,7 @@ Volume<float> shown_for_gland(const Volume<float>& scan, const Work& work, const
 }  // namespace
 
 void show_gland(Work& work, const Volume<float>& scan, Images& images, SuppressedFat& fat) {
-  fat.log_level = level_of(work, scan, fat.failed);
+  fat.log_level = level_of(work, scan, fat);
   const Volume<float> relative = relative_to(fat.log_level, scan);
   find_failed(fat, work, relative, fat.water);
   fat.gland = brightness_of_gland(work, relative, wider(fat.failed, by_failed), fat.water);
@@ -420,6 +413,11 @@ std::string refusal_of_muscle(const MuscleOverFat& muscle) {
 std::string refusal_of(const SuppressedFat& fat) {
   const std::string muscle = refusal_of_muscle(fat.muscle);
   if (!muscle.empty()) return muscle;
+  if (fat.near_failed > most_near_failed)
+    return message("tissue as bright as fat that is not suppressed lies beside ",
+                   std::lround(100 * fat.near_failed), " % of the tissue below the skin (at most ",
+                   std::lround(100 * most_near_failed),
+                   " %), so that the brightness of suppressed fat is unknown");
   // At 2, walls of known anatomies are as right as without failure; less was not tried.
   constexpr double least_beside_failed = 1.7;
   if (fat.failed_ml > 0 && fat.muscle.median < least_beside_failed)

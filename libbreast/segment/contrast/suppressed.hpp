@@ -23,6 +23,7 @@ struct SuppressedFat {
   Volume<float> log_level;       ///< log brightness of suppressed fat
   Mask failed;                   ///< where fat is not suppressed
   double failed_ml = 0;          ///< of that
+  double near_failed = 0;        ///< share of the tissue below the skin within 10 mm of `failed`
   double failed_brightness = 1;  ///< of that fat, relative to suppressed fat; 1 if there is none
   double water = 1.35;           ///< brightness of muscle, as the wall is sought
   double gland = 0;              ///< brightness of the breast's bright end, once it is shown
