@@ -10,13 +10,16 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from breast.command.declaration import help_completion, help_man, help_markdown, help_text
+from breast.command.declaration import help_completion, help_text
 from breast.command.nearest import nearest, suggestion
 from breast.command.tool import Tool
 from breast.errors import BreastError, Failed, NotConverged
 from breast.output import write_text, written_by_us
 
-PYTHON = Path(__file__).resolve().parent.parent.parent / "python"
+ROOT = Path(__file__).resolve().parents[2]
+PYTHON = ROOT / "python"
+sys.path.insert(0, str(ROOT / "tests/tools"))
+from help_pages import manual, markdown, parse_help  # noqa: E402
 
 
 def example():
@@ -116,9 +119,10 @@ class Programs(unittest.TestCase):
         tool = example().declaration
         self.assertIn("  -f, --factor X\n      factor (1 to 95; default: 2)\n", help_text(tool))
         self.assertIn("  --gravity X,Y,Z\n      direction (default: 0,0,0.5)\n", help_text(tool))
-        self.assertIn("| `--element q1p0\\|q2p1` | element (default: q1p0) |", help_markdown(tool))
-        self.assertIn("\nDoes \\| nothing.\n", help_markdown(tool))
-        self.assertIn(".B \\-o, \\-\\-output OUT.tsv\nresult\n", help_man(tool))
+        page = parse_help(help_text(tool, everything=True))
+        self.assertIn("| `--element q1p0\\|q2p1` | element (default: q1p0) |", markdown(page))
+        self.assertIn("\nDoes \\| nothing.\n", markdown(page))
+        self.assertIn(".B \\-o, \\-\\-output OUT.tsv\nresult\n", manual(page, "1"))
         self.assertIn("--element\tvalue\tq1p0 q2p1\n", help_completion(tool))
         self.assertIn("--output\tfile\t\n", help_completion(tool))
 
@@ -138,17 +142,18 @@ class Programs(unittest.TestCase):
         self.assertEqual([line for line in small.split("\nCommon options")[0].splitlines() if line.startswith("  -")],
                          ["  -f, --factor X", "  --element q1p0|q2p1", "  -o, --output OUT.tsv"])
         self.assertTrue(small.endswith("\n\nexample --help-all shows 4 further options by topic: input, solver\n"), small)
-        man, markdown = help_man(tool.declaration).replace("\\-", "-"), help_markdown(tool.declaration).replace("\\|", "|")
+        page = parse_help(whole)
+        man, cells = manual(page, "1").replace("\\-", "-"), markdown(page).replace("\\|", "|")
         for option in tool.declaration.options + tool.declaration.common:
             usage = option.usage()
-            for page, line in ((whole, f"\n  {usage}\n"), (man, f"\n.B {usage}\n"), (markdown, f"| `{usage}` |")):
+            for page, line in ((whole, f"\n  {usage}\n"), (man, f"\n.B {usage}\n"), (cells, f"| `{usage}` |")):
                 self.assertEqual(page.count(line), 1, line)
-        for page in (whole, man, markdown):
+        for page in (whole, man, cells):
             for part in ("More about nothing.", "Nobody 2026"):
                 self.assertIn(part, page)
         titles = [line for line in whole.splitlines() if line.startswith("Options")]
         self.assertEqual(titles, ["Options:", "Options: solver:", "Options: input:"])
-        self.assertIn('\n.SH "OPTIONS: SOLVER"\n', help_man(tool.declaration))
+        self.assertIn('\n.SH "OPTIONS: SOLVER"\n', man)
         self.assertRaises(Failed, tool.topic, "solver", ("--with",))  # it has another topic
         self.assertRaises(Failed, tool.topic, "solver", ("--none",))
         self.assertRaises(Failed, tool.basic, ("--none",))

@@ -67,7 +67,7 @@ pass "defaults follow from the case"
 # What a setting accepts is what the program accepts to which it is given.
 while read -r setting tool option; do
   range=$(awk -F '\t' -v setting="$setting" '$1 == setting { split($4, word, " "); print word[2], "to", word[3] }' pipelines/settings.tsv)
-  "$bin/$tool" --help-markdown | grep -- "^| .$option [A-Z]*. | .*($range[;)]" > /dev/null || fail "$setting: $range is the range of $tool $option"
+  grep -q -- "^| .$option [A-Z]*. | .*($range[;)]" "docs/tools/$tool.md" || fail "$setting: $range is the range of $tool $option"
 done <<'ranges'
 FORCE compress --force
 THICKNESS compress --thickness

@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The declaration of a program, from which its help, manual page, Markdown page and completion follow.
-
-The pages have the form of those of the C++ programs (libbreast/cli/help.cpp).
-"""
+"""The declaration of a program, from which its help and completion follow, in the form of the C++ programs (libbreast/cli/help.cpp)."""
 from __future__ import annotations
 
 import math
@@ -165,52 +162,7 @@ def help_text(tool: Declaration, everything: bool = False) -> str:
     out.append(_examples(tool))
     out.append("\nExit codes:\n" + "".join(f"  {code}  {meaning}\n" for code, meaning in _EXIT_CODES))
     if tool.citations:
-        out.append("\nCitation:\n" + "".join(f"  {_wrap(citation, 2)}\n" for citation in tool.citations))
-    return "".join(out)
-
-
-def _roff(text: str) -> str:
-    # Roff takes a leading dot or quote as a request, and a bare minus as a hyphen.
-    text = text.replace("\\", "\\e").replace("-", "\\-")
-    return "\\&" + text if text[:1] in (".", "'") else text
-
-
-def help_man(tool: Declaration) -> str:
-    out = [f'.TH {tool.name.upper()} 1 "" "libbreast {tool.version}" libbreast\n'
-           f".SH NAME\n{_roff(tool.name)} \\- {_roff(tool.summary)}\n.SH SYNOPSIS\n.B {_roff(synopsis(tool))}\n"]
-    if tool.paragraphs:
-        out.append(".SH DESCRIPTION\n" + ".PP\n".join(_roff(p) + "\n" for p in tool.paragraphs))
-    for title, arguments in [("Arguments", tool.positionals), *tool.by_topic(), ("Common options", tool.common)]:
-        if arguments:
-            heading = title.upper()
-            out.append(f'.SH "{heading}"\n' if " " in heading else f".SH {heading}\n")
-        out += [f".TP\n.B {_roff(a.usage())}\n{_roff(a.explained())}\n" for a in arguments]
-    if tool.examples:
-        out.append(".SH EXAMPLES\n")
-    out += [f".TP\n.B {_roff(command)}\n{_roff(explanation)}\n" for command, explanation in tool.examples]
-    out.append('.SH "EXIT STATUS"\n' + "".join(f".TP\n.B {code}\n{_roff(meaning)}\n" for code, meaning in _EXIT_CODES))
-    if tool.citations:
-        out.append(".SH REFERENCES\n" + ".PP\n".join(_roff(c) + "\n" for c in tool.citations))
-    return "".join(out)
-
-
-def help_markdown(tool: Declaration) -> str:
-    def cell(text: str) -> str:
-        return text.replace("|", "\\|").replace("<", "&lt;")
-    out = [f"# {tool.name}\n\n{cell(tool.summary)}\n\n```\n{synopsis(tool)}\n```\n"]
-    out += [f"\n{cell(paragraph)}\n" for paragraph in tool.paragraphs]
-    for title, arguments in [("Arguments", tool.positionals), *tool.by_topic(), ("Common options", tool.common)]:
-        if arguments:
-            out.append(f"\n## {title}\n\n| | |\n|---|---|\n")
-        for a in arguments:
-            usage = a.usage().replace("|", "\\|")
-            out.append(f"| `{usage}` | {cell(a.explained())} |\n")
-    if tool.examples:
-        out.append("\n## Examples\n")
-    out += [f"\n{cell(explanation)}\n\n```\n{command}\n```\n" for command, explanation in tool.examples]
-    out.append("\n## Exit codes\n\n| code | meaning |\n|---|---|\n" + "".join(f"| {c} | {m} |\n" for c, m in _EXIT_CODES))
-    if tool.citations:
-        out.append("\n## References\n\n" + "".join(f"- {cell(citation)}\n" for citation in tool.citations))
+        out.append("\nCitation:\n" + "".join(f"  {_wrap(citation, 4)}\n" for citation in tool.citations))
     return "".join(out)
 
 

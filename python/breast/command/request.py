@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 from ..errors import BreastError, Failed
 from .assumed import SIDES, TUMOUR_RULE
-from .commands import COMMANDS, SUMMARY
+from .commands import COMMANDS
 from .declaration import Argument, Declaration
 from .parse import Tokens, assign, tokenize
 
@@ -160,28 +160,6 @@ def pipeline_command(name: str) -> Declaration:
                       ("breast page scan.nrrd --side left", "runs/scan-left/page.html, without the figures")]
     d.positionals.append(Argument("text", (), "[SETTING=value]", "a setting of the pipeline: `breast help settings` lists them",
                                   repeatable=True))
-    return d
-
-
-def breast_declaration() -> Declaration:
-    """The declaration of `breast` itself, for its manual page."""
-    d = Declaration("breast", SUMMARY)
-    d.paragraphs += [
-        "`breast TOOL` runs a tool of libbreast with its arguments, as in `breast segment scan.nrrd labels.vtkhdf --side left`. Each tool "
-        "has a manual page, breast-TOOL. `breast list` lists them, `breast help TOOL` prints the help of one.",
-        "`breast run SCAN [SETTING=value]...` runs the whole chain on a scan, `breast demo` on a simulated breast, "
-        "`breast cohort DIR` on every case file of a folder. They work from any folder; results are written to ./runs or to the folder "
-        "given by --runs."]
-    d.positionals += [Argument("text", (), "COMMAND", "run, demo, page, cohort, list, help, or the name of a tool"),
-                      Argument("text", (), "ARGUMENT", "arguments of the command", repeatable=True)]
-    for option in pipeline_command("run").options + pipeline_command("cohort").options:
-        if d.option(option.label) is None:
-            d.options.append(option)
-    d.options += [Argument("flag", ("--help",), "", "the commands and tools"), Argument("flag", ("--version",), "", "name and version")]
-    d.examples += [("breast demo", "the whole chain on a simulated breast; results in ./runs/average"),
-                   ("breast run scan.nrrd", "the whole chain on a scan; results in ./runs/scan-left and ./runs/scan-right"),
-                   ("breast help compress", "the help of a tool"),
-                   ("breast help TUMOUR", "what a setting does")]
     return d
 
 

@@ -24,7 +24,7 @@ from types import SimpleNamespace
 from ..errors import BreastError, Failed
 from ..output import is_stream, write_text, written_by_us
 from ..text_table import parse_number
-from .declaration import Argument, Declaration, help_completion, help_man, help_markdown, help_text, number_text
+from .declaration import Argument, Declaration, help_completion, help_text, number_text
 from .parse import Tokens, assign, tokenize
 from .paths import check_paths, named_values
 
@@ -194,8 +194,7 @@ class Tool:
     def _answer(self, words: list[str]) -> str | None:
         asked = words[:words.index("--")] if "--" in words else words
         pages = {"--help": help_text, "--help-all": lambda d: help_text(d, everything=True),
-                 "--version": lambda d: f"{d.name} (libbreast) {d.version}\n", "--help-man": help_man,
-                 "--help-markdown": help_markdown, "--help-completion": help_completion}
+                 "--version": lambda d: f"{d.name} (libbreast) {d.version}\n", "--help-completion": help_completion}
         return next((page(self.declaration) for name, page in pages.items() if name in asked), None)
 
     def _check(self, tokens: Tokens) -> None:
