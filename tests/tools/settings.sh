@@ -39,7 +39,7 @@ plan fuzz MINUTES=1 && plan release-check FUZZ_MINUTES=1 FUZZ_INPUTS=1 FAULT_ALL
 pass "unknown settings and values are refused by name, with a suggestion"
 
 # Defaults, which depend on the case, are those of settings, once each.
-defaults=$(grep -oh '^[A-Z][A-Z0-9_]* ?=' pipelines/settings.mk pipelines/build.mk | cut -d' ' -f1 | sort)
+defaults=$(grep -oh '^[A-Z][A-Z0-9_]* ?=' pipelines/settings.mk pipelines/build.mk tests/*.mk tests/*/*.mk | cut -d' ' -f1 | sort)
 [ "$(wc -w <<< "$defaults")" -gt 40 ] && [ -z "$(uniq -d <<< "$defaults")" ] && [ -z "$(comm -23 <(echo "$defaults") <(cut -f 1 pipelines/settings.tsv | sort))" ] ||
   fail "settings.mk has no default twice and none of what is no setting"
 has() { # VALUES SETTING... -- ARGUMENT...
