@@ -18,8 +18,8 @@ _EXIT_CODES = (("0", "done"), ("1", "failed (disk, memory, library)"), ("2", "ba
 class Argument:
     """An option, or a positional argument if it has no names.
 
-    kind: text, number, integer, numbers, choice, flag, input, output or folder.
-    low, high: the bounds of a number; count: how many numbers; endings: of the name of an output.
+    kind: text, number, integer, choice, flag, input, output or folder.
+    low, high: the bounds of a number; endings: of the name of an output; repeatable: of the last positional argument, which takes all words.
     topic: heading under which all options are listed, empty for the first; basic: whether the short help lists it.
     store: called with the list of checked values; with an empty list for a flag.
     """
@@ -33,9 +33,7 @@ class Argument:
     endings: Sequence[str] = ()
     low: float = -math.inf
     high: float = math.inf
-    count: int = 1
     repeatable: bool = False
-    required: bool = False
     topic: str = ""
     basic: bool = False
     store: Callable[[list[str]], None] = lambda values: None
@@ -64,13 +62,7 @@ class Argument:
 
     def explained(self) -> str:
         """The help with its remarks: "thickness (1 to 95; default: 50)"."""
-        parts = [self.bounds()]
-        if self.required and self.names:
-            parts.append("required")
-        if self.repeatable and self.names:
-            parts.append("may be repeated")
-        if not self.required and self.default_text:
-            parts.append("default: " + self.default_text)
+        parts = [self.bounds(), "default: " + self.default_text if self.default_text else ""]
         remarks = "; ".join(part for part in parts if part)
         return f"{self.help} ({remarks})" if remarks else self.help
 
@@ -93,8 +85,8 @@ class Declaration:
         return next((a for a in self.options + self.common if name in a.names), None)
 
     def is_brief(self, option: Argument) -> bool:
-        """Whether the short help lists it: one that is basic or required, and any if the program marks none as basic."""
-        return option.basic or option.required or not any(a.basic for a in self.options)
+        """Whether the short help lists it: one that is basic, and any if the program marks none as basic."""
+        return option.basic or not any(a.basic for a in self.options)
 
     def by_topic(self) -> list[tuple[str, list[Argument]]]:
         """The headings of the options in the order of their first use, each with its options."""
@@ -114,8 +106,7 @@ def _call_prefix() -> str:
 
 
 def synopsis(tool: Declaration) -> str:
-    required = [a.usage() for a in tool.options if a.required]
-    return " ".join([_call_prefix() + tool.name, *(a.usage() for a in tool.positionals), *required, "[options]"])
+    return " ".join([_call_prefix() + tool.name, *(a.usage() for a in tool.positionals), "[options]"])
 
 
 def _wrap(text: str, indent: int) -> str:

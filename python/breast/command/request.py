@@ -75,7 +75,7 @@ def _declare_run(d: Declaration, r: PipelineRequest) -> None:
         "setting, whose name make cannot handle (blanks, quotes, brackets, ...) is accessed through a link with a plain name in "
         "DIR/.names; the name of the run's folder has underscores in place of such characters."]
     d.positionals.append(Argument("text", (), "SCAN", "T1-weighted MR without fat saturation, patient prone: NRRD, NIfTI, MetaImage or a "
-                                  "DICOM folder", required=True, store=_into(r, "scan")))
+                                  "DICOM folder", store=_into(r, "scan")))
     d.options.append(Argument("choice", ("--side",), "NAME", "breast to model: the patient's left or right (default: both, if the scan "
                               "shows both)", choices=SIDES, store=_into(r, "side")))
     r.target = "summary page"
@@ -119,7 +119,7 @@ def _declare_cohort(d: Declaration, r: PipelineRequest) -> None:
         "scan). It continues after a case that fails, and ends with one table of all cases (cohort.tsv, cohort.html) and the contours of "
         "every segmentation (contours.html). File names in a case file are relative to the current folder. SETTING=value applies to all "
         "cases and overrides their files.")
-    d.positionals.append(Argument("text", (), "DIR", "folder of case files", required=True, store=_into(r, "scan")))
+    d.positionals.append(Argument("text", (), "DIR", "folder of case files", store=_into(r, "scan")))
     _options(d, r, "number of cases that may run at the same time; they share the cores")
     d.options += [
         Argument("flag", ("--slurm",), "", "submit the cases to Slurm as one job array, followed by a job that makes the table; --dry-run "
