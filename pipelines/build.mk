@@ -43,7 +43,7 @@ flock $(BUILD) cmake --build $(BUILD) --target $1 -j $$(nproc)
 endef
 # Programs that the chain does without and that take the compiler long: each is built when a rule first asks for it, and from then on
 # with all others.
-LATER := calibrate calibrate-softness export-deck export-slicer identify
+LATER := calibrate-softness export-deck export-slicer identify
 $(LATER:%=$(BIN)/%):
 	flock $(BUILD) cmake --build $(BUILD) --target $(@F) -j $$(nproc)
 $(ROOT)build/cases.mk: $(ROOT)build/.packages FORCE

@@ -96,7 +96,7 @@ PROJECT ?= $(BIN)/project-mammogram
 CC2MLO ?= $(BIN)/cc2mlo
 RENDER ?= $(BIN)/render
 
-# ---- results, studies, truth -------------------------------------------------------------------------------
+# ---- results, studies --------------------------------------------------------------------------------------
 # A page is easily forwarded. It therefore contains voxels of a patient's scan only with PAGE_SCAN=yes; a phantom may be shown.
 PAGE_SCAN ?= $(if $(TRUTH),yes,no)
 EXPECTED ?= $(wildcard $(PIPELINES)/expected/$(CASE)$(if $(PAPER),-as-printed).tsv)
@@ -108,10 +108,6 @@ FINDINGS_FINEST ?= 10
 LEAVEOUT_MM ?= 1
 LEAVEOUT_VARIANTS ?= $(leaveout_variants)
 BUDGET_FINER ?= 20
-TRUTH_COARSE ?= $(if $(body_slides),0.5,1)
-TRUTH_FINE ?= $(if $(body_slides),0.75,2)
-POPULATION_ELEMENTS ?= 10
-POPULATION_MATERIALS ?= invivo
 
 # ---- cohorts -----------------------------------------------------------------------------------------------
 CLUSTER ?= local

@@ -93,6 +93,6 @@ $(STABILITY)/summary.tsv: $(STABILITY)/mechanics.tsv $(STABILITY)/contact.tsv $(
 # $(call bench,NAME): builds the benchmark program NAME, one recipe at a time.
 bench = flock $(BUILD)/.bench $(SHELL) -c 'cmake -B $(BUILD) -DBREAST_BENCH=ON && cmake --build $(BUILD) --target $1' > $(RUN)/.$1.log
 
-include $(addprefix $(ROOT)tests/bench/,compare.mk bands.mk identification.mk calibrate.mk same-scan.mk)
-include $(ROOT)tests/truth/budget.mk
+include $(addprefix $(ROOT)tests/,truth/compressed.mk truth/budget.mk)
+include $(addprefix $(ROOT)tests/bench/,population.mk compare.mk bands.mk identification.mk calibrate.mk same-scan.mk)
 include $(ROOT)tests/validation.mk

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The declaration of a tool, from which its help, man page, Markdown page and checks are derived.
+// The declaration of a tool, from which its help and checks are derived. The pages of docs/tools and docs/man are
+// made of that help (tests/tools/help_pages.py).
 #pragma once
 
 #include <functional>
@@ -64,8 +65,6 @@ std::string usage(const Argument& argument);
 /// The help of a terminal: with `all`, everything, the options by topic; otherwise the first
 /// paragraph, the options that most people need, and what `all` has beyond them.
 std::string help_text(const Declaration& tool, bool all);
-std::string help_man(const Declaration& tool);
-std::string help_markdown(const Declaration& tool);
 /// For the completion in a shell: one line "--name<TAB>kind<TAB>choice choice" per long option,
 /// where kind is flag, file or value.
 std::string help_completion(const Declaration& tool);

@@ -53,63 +53,6 @@ void list_text(std::ostringstream& out, const std::string& title,
   }
 }
 
-// Roff takes a leading dot or quote as a request and a bare minus as a hyphen.
-std::string roff(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '\\')
-      out += "\\e";
-    else if (c == '-')
-      out += "\\-";
-    else
-      out += c;
-  }
-  if (!out.empty() && (out[0] == '.' || out[0] == '\'')) out = "\\&" + out;
-  return out;
-}
-
-void list_man(std::ostringstream& out, const std::string& title,
-              const std::vector<Argument>& list) {
-  if (list.empty()) return;
-  out << ".SH " << title << "\n";
-  for (const Argument& argument : list) {
-    out << ".TP\n.B " << roff(usage(argument)) << "\n" << roff(with_remarks(argument)) << "\n";
-  }
-}
-
-// A vertical bar would end a table cell, an angle bracket would start a tag.
-std::string cell(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '|')
-      out += "\\|";
-    else if (c == '<')
-      out += "&lt;";
-    else
-      out += c;
-  }
-  return out;
-}
-
-void list_markdown(std::ostringstream& out, const std::string& title,
-                   const std::vector<Argument>& list) {
-  if (list.empty()) return;
-  out << "\n## " << title << "\n\n| | |\n|---|---|\n";
-  for (const Argument& argument : list) {
-    std::string code = usage(argument);
-    for (std::size_t at = 0; (at = code.find('|', at)) != std::string::npos; at += 2) {
-      code.replace(at, 1, "\\|");
-    }
-    out << "| `" << code << "` | " << cell(with_remarks(argument)) << " |\n";
-  }
-}
-
-std::string upper(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return std::toupper(c); });
-  return text;
-}
-
 // An installed tool lies in libexec/breast, where no shell finds it: it is called through the command `breast`.
 std::string call_prefix() {
   std::error_code unknown;
@@ -252,57 +195,7 @@ std::string help_text(const Declaration& tool, bool all) {
   out << "\nExit codes:\n";
   for (const ExitCode& exit : exit_codes) out << "  " << exit.code << "  " << exit.meaning << "\n";
   if (!tool.citations.empty()) out << "\nCitation:\n";
-  for (const std::string& citation : tool.citations) out << "  " << wrap(citation, 2) << "\n";
-  return out.str();
-}
-
-std::string help_man(const Declaration& tool) {
-  std::ostringstream out;
-  out << ".TH " << upper(tool.name) << " 1 \"\" \"libbreast " << tool.version << "\" libbreast\n";
-  out << ".SH NAME\n" << roff(tool.name) << " \\- " << roff(tool.summary) << "\n";
-  out << ".SH SYNOPSIS\n.B " << roff(synopsis(tool)) << "\n";
-  if (!tool.paragraphs.empty()) out << ".SH DESCRIPTION\n";
-  for (std::size_t i = 0; i < tool.paragraphs.size(); ++i) {
-    out << (i ? ".PP\n" : "") << roff(tool.paragraphs[i]) << "\n";
-  }
-  list_man(out, "ARGUMENTS", tool.positionals);
-  for (const std::string& topic : tool.topics())
-    list_man(out, '"' + upper(topic_title(topic)) + '"', tool.of_topic(topic));
-  list_man(out, "\"COMMON OPTIONS\"", tool.common);
-  if (!tool.examples.empty()) out << ".SH EXAMPLES\n";
-  for (const auto& example : tool.examples) {
-    out << ".TP\n.B " << roff(example.command) << "\n" << roff(example.explanation) << "\n";
-  }
-  out << ".SH \"EXIT STATUS\"\n";
-  for (const ExitCode& exit : exit_codes) {
-    out << ".TP\n.B " << exit.code << "\n" << roff(exit.meaning) << "\n";
-  }
-  if (!tool.citations.empty()) out << ".SH REFERENCES\n";
-  for (std::size_t i = 0; i < tool.citations.size(); ++i) {
-    out << (i ? ".PP\n" : "") << roff(tool.citations[i]) << "\n";
-  }
-  return out.str();
-}
-
-std::string help_markdown(const Declaration& tool) {
-  std::ostringstream out;
-  out << "# " << tool.name << "\n\n"
-      << cell(tool.summary) << "\n\n```\n"
-      << synopsis(tool) << "\n```\n";
-  for (const std::string& paragraph : tool.paragraphs) out << "\n" << cell(paragraph) << "\n";
-  list_markdown(out, "Arguments", tool.positionals);
-  for (const std::string& topic : tool.topics())
-    list_markdown(out, topic_title(topic), tool.of_topic(topic));
-  list_markdown(out, "Common options", tool.common);
-  if (!tool.examples.empty()) out << "\n## Examples\n";
-  for (const auto& example : tool.examples) {
-    out << "\n" << cell(example.explanation) << "\n\n```\n" << example.command << "\n```\n";
-  }
-  out << "\n## Exit codes\n\n| code | meaning |\n|---|---|\n";
-  for (const ExitCode& exit : exit_codes)
-    out << "| " << exit.code << " | " << exit.meaning << " |\n";
-  if (!tool.citations.empty()) out << "\n## References\n\n";
-  for (const std::string& citation : tool.citations) out << "- " << cell(citation) << "\n";
+  for (const std::string& citation : tool.citations) out << "  " << wrap(citation, 4) << "\n";
   return out.str();
 }
 

@@ -218,10 +218,6 @@ bool Tool::Impl::answer_questions(const std::vector<std::string>& arguments) con
     answer = help_text(declaration, true);
   else if (asked("--version"))
     answer = declaration.name + " (libbreast) " + declaration.version + "\n";
-  else if (asked("--help-man"))
-    answer = help_man(declaration);
-  else if (asked("--help-markdown"))
-    answer = help_markdown(declaration);
   else if (asked("--help-completion"))
     answer = help_completion(declaration);
   if (!answer.empty()) write_stdout(answer);

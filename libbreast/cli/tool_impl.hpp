@@ -35,8 +35,7 @@ struct Tool::Impl {
     throw failed_error("tool ", declaration.name, " names ", name, ", which it never declared");
   }
   void declare_common();
-  /// Answers --help, --help-all, --version and the hidden --help-man, --help-markdown, --help-completion; true
-  /// if one of them was given.
+  /// Answers --help, --help-all, --version and the hidden --help-completion; true if one of them was given.
   bool answer_questions(const std::vector<std::string>& arguments) const;
 };
 

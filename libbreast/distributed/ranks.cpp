@@ -93,9 +93,6 @@ double Ranks::most(double mine) const {
   const bool good = all(!std::isnan(mine));
   return good ? reduce(mine, MPI_DOUBLE, MPI_MAX) : std::numeric_limits<double>::quiet_NaN();
 }
-double Ranks::least(double mine) const {
-  return -most(-mine);
-}
 long Ranks::least(long mine) const {
   return reduce(mine, MPI_LONG, MPI_MIN);
 }

@@ -48,7 +48,6 @@ class Ranks {
   double sum(double mine) const;
   long sum(long mine) const;
   double most(double mine) const;
-  double least(double mine) const;
   long least(long mine) const;
   bool all(bool mine) const { return least(long(mine)) != 0; }
   /// Sum of `mine` over the ranks below this one.

@@ -4,7 +4,9 @@
 # The preset `paper` is fitted to the displacements in Tables III and IV of the paper. The fit assumes that the chain displaces the
 # nipple 1.28 times and the tumour 1.39 times as far as the phantom does; these factors were measured with PAPER=1 on a phantom
 # close to the fitted one. The target prints the values that are in libbreast/phantom/parameters.cpp.
-calibrate: $(BIN)/calibrate
+calibrate:
+	@mkdir -p $(RUN)
+	$(call bench,calibrate)
 	$(BIN)/calibrate --preset paper --gain 1.28,1.39 --evaluations 24 $(share)
 
 # Weights of the prior for women's shapes. Gravity hardly sees the linear constants: they are expected where the small-strain
@@ -46,4 +48,4 @@ calibrate-invivo:
 calibrate-invivo-sternum:
 	$(call calibrate_set,invivo-sternum,--cut tissue:0.01$(comma)0.4 --muscle-stiffness 8 \
 	  --expected 3$(comma)3$(comma)100 --pressure 10$(comma)5)
-.PHONY: calibrate-invivo-borders calibrate-invivo calibrate-invivo-sternum
+.PHONY: calibrate calibrate-invivo-borders calibrate-invivo calibrate-invivo-sternum

@@ -81,7 +81,6 @@ inline const std::vector<Case>& cases() {
       // Its first call tries whether the folder can be made at all.
       {"phantom_folders",
        "phantom out.nrrd --preset small --coarse 8 --truth out --dicom out-series", 0, 2},
-      {"calibrate", "calibrate --preset small --evaluations 4", 0, 1},
       {"calibrate_softness",
        "calibrate-softness pressed.vtkhdf --pressed pressed.vtkhdf --women women.tsv --set out.tsv "
        "--expected 20,50,100 --wall slide:0.05 --cut spring:0.05 --expected-ln-sd 0.2 --reduction 10",

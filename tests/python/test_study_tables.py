@@ -8,14 +8,16 @@ from breast.errors import BreastError, Failed
 from breast.study.cohort_pages import mean_and_deviation
 from breast.study.cost import Point, accuracy_row, cost_table
 from breast_validation.draws import coverage, coverage_table, identification_table, quantile, read_band_rows, stability_table
-from breast.study.experiments import compressions_table, outcomes_table, plates_table
+from breast.study.outcomes import outcomes_table
 from breast.study.leaveout import changes, least_model
 from breast.study.paper_tables import changed_set, scaled_table
 from breast.study.slopes import compare_slopes, parabola_slope, slope_between
 from breast.study.table import Table, general, read_table, shortest
 from breast.study.verdicts import MEASURES, judge, measured, model_of_rows, model_of_slopes
-from breast.study.verify import expected_anew, verdict_of, verify
+from breast.study.verify import verdict_of, verify
 from breast.study.views import views_table
+from breast_validation.expected import expected_anew
+from breast_validation.plates import compressions_table, plates_table
 from breast_validation.solves import pressed_table
 from breast_validation.truth import budget_table
 from study_files import InFolder, table_of

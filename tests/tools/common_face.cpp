@@ -77,10 +77,8 @@ TEST_P(CommonFace, HelpIsShortAndFullHelpHasEveryOption) {
   }
 }
 
-TEST_P(CommonFace, VersionAndPages) {
+TEST_P(CommonFace, Version) {
   EXPECT_EQ(run({"--version"}).out.find(GetParam() + " (libbreast) "), 0u);
-  EXPECT_EQ(run({"--help-man"}).out.find(".TH "), 0u);
-  EXPECT_EQ(run({"--help-markdown"}).out.find("# " + GetParam() + "\n"), 0u);
 }
 
 TEST_P(CommonFace, UsageErrors) {

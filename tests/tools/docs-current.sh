@@ -20,12 +20,11 @@ mkdir "$fresh/tools" "$fresh/man"
 # A tool has a file tools/NAME.cpp, or is a launcher of Python.
 launchers=$(sed -n 's/^breast_launcher(\([a-z0-9-]*\) .*/\1/p' "$root/tools/CMakeLists.txt" "$root/cmake/command.cmake")
 is_tool() { [ -f "$root/tools/$1.cpp" ] || echo "$launchers" | grep -qx "$1"; }
+set --
 for program in "$programs"/*; do
-  name=$(basename "$program")
-  [ -x "$program" ] && is_tool "$name" || continue
-  "$program" --help-markdown > "$fresh/tools/$name.md"
-  "$program" --help-man > "$fresh/man/$name.1"
+  [ -x "$program" ] && is_tool "$(basename "$program")" && set -- "$@" "$program"
 done
+"$root/tests/tools/help_pages.py" "$fresh" "$@"
 # The table of the files that must belong together.
 if [ -x "$programs/pairs" ]; then
   "$programs/pairs" all > "$fresh/pairs.md"

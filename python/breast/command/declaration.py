@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The declaration of a program, from which its help, manual page, Markdown page and completion follow.
-
-The pages have the form of those of the C++ programs (libbreast/cli/help.cpp).
-"""
+"""The declaration of a program, from which its help and completion follow, in the form of the C++ programs (libbreast/cli/help.cpp)."""
 from __future__ import annotations
 
 import math
@@ -21,8 +18,8 @@ _EXIT_CODES = (("0", "done"), ("1", "failed (disk, memory, library)"), ("2", "ba
 class Argument:
     """An option, or a positional argument if it has no names.
 
-    kind: text, number, integer, numbers, choice, flag, input, output or folder.
-    low, high: the bounds of a number; count: how many numbers; endings: of the name of an output.
+    kind: text, number, integer, choice, flag, input, output or folder.
+    low, high: the bounds of a number; endings: of the name of an output; repeatable: of the last positional argument, which takes all words.
     topic: heading under which all options are listed, empty for the first; basic: whether the short help lists it.
     store: called with the list of checked values; with an empty list for a flag.
     """
@@ -36,9 +33,7 @@ class Argument:
     endings: Sequence[str] = ()
     low: float = -math.inf
     high: float = math.inf
-    count: int = 1
     repeatable: bool = False
-    required: bool = False
     topic: str = ""
     basic: bool = False
     store: Callable[[list[str]], None] = lambda values: None
@@ -67,13 +62,7 @@ class Argument:
 
     def explained(self) -> str:
         """The help with its remarks: "thickness (1 to 95; default: 50)"."""
-        parts = [self.bounds()]
-        if self.required and self.names:
-            parts.append("required")
-        if self.repeatable and self.names:
-            parts.append("may be repeated")
-        if not self.required and self.default_text:
-            parts.append("default: " + self.default_text)
+        parts = [self.bounds(), "default: " + self.default_text if self.default_text else ""]
         remarks = "; ".join(part for part in parts if part)
         return f"{self.help} ({remarks})" if remarks else self.help
 
@@ -96,8 +85,8 @@ class Declaration:
         return next((a for a in self.options + self.common if name in a.names), None)
 
     def is_brief(self, option: Argument) -> bool:
-        """Whether the short help lists it: one that is basic or required, and any if the program marks none as basic."""
-        return option.basic or option.required or not any(a.basic for a in self.options)
+        """Whether the short help lists it: one that is basic, and any if the program marks none as basic."""
+        return option.basic or not any(a.basic for a in self.options)
 
     def by_topic(self) -> list[tuple[str, list[Argument]]]:
         """The headings of the options in the order of their first use, each with its options."""
@@ -117,8 +106,7 @@ def _call_prefix() -> str:
 
 
 def synopsis(tool: Declaration) -> str:
-    required = [a.usage() for a in tool.options if a.required]
-    return " ".join([_call_prefix() + tool.name, *(a.usage() for a in tool.positionals), *required, "[options]"])
+    return " ".join([_call_prefix() + tool.name, *(a.usage() for a in tool.positionals), "[options]"])
 
 
 def _wrap(text: str, indent: int) -> str:
@@ -165,52 +153,7 @@ def help_text(tool: Declaration, everything: bool = False) -> str:
     out.append(_examples(tool))
     out.append("\nExit codes:\n" + "".join(f"  {code}  {meaning}\n" for code, meaning in _EXIT_CODES))
     if tool.citations:
-        out.append("\nCitation:\n" + "".join(f"  {_wrap(citation, 2)}\n" for citation in tool.citations))
-    return "".join(out)
-
-
-def _roff(text: str) -> str:
-    # Roff takes a leading dot or quote as a request, and a bare minus as a hyphen.
-    text = text.replace("\\", "\\e").replace("-", "\\-")
-    return "\\&" + text if text[:1] in (".", "'") else text
-
-
-def help_man(tool: Declaration) -> str:
-    out = [f'.TH {tool.name.upper()} 1 "" "libbreast {tool.version}" libbreast\n'
-           f".SH NAME\n{_roff(tool.name)} \\- {_roff(tool.summary)}\n.SH SYNOPSIS\n.B {_roff(synopsis(tool))}\n"]
-    if tool.paragraphs:
-        out.append(".SH DESCRIPTION\n" + ".PP\n".join(_roff(p) + "\n" for p in tool.paragraphs))
-    for title, arguments in [("Arguments", tool.positionals), *tool.by_topic(), ("Common options", tool.common)]:
-        if arguments:
-            heading = title.upper()
-            out.append(f'.SH "{heading}"\n' if " " in heading else f".SH {heading}\n")
-        out += [f".TP\n.B {_roff(a.usage())}\n{_roff(a.explained())}\n" for a in arguments]
-    if tool.examples:
-        out.append(".SH EXAMPLES\n")
-    out += [f".TP\n.B {_roff(command)}\n{_roff(explanation)}\n" for command, explanation in tool.examples]
-    out.append('.SH "EXIT STATUS"\n' + "".join(f".TP\n.B {code}\n{_roff(meaning)}\n" for code, meaning in _EXIT_CODES))
-    if tool.citations:
-        out.append(".SH REFERENCES\n" + ".PP\n".join(_roff(c) + "\n" for c in tool.citations))
-    return "".join(out)
-
-
-def help_markdown(tool: Declaration) -> str:
-    def cell(text: str) -> str:
-        return text.replace("|", "\\|").replace("<", "&lt;")
-    out = [f"# {tool.name}\n\n{cell(tool.summary)}\n\n```\n{synopsis(tool)}\n```\n"]
-    out += [f"\n{cell(paragraph)}\n" for paragraph in tool.paragraphs]
-    for title, arguments in [("Arguments", tool.positionals), *tool.by_topic(), ("Common options", tool.common)]:
-        if arguments:
-            out.append(f"\n## {title}\n\n| | |\n|---|---|\n")
-        for a in arguments:
-            usage = a.usage().replace("|", "\\|")
-            out.append(f"| `{usage}` | {cell(a.explained())} |\n")
-    if tool.examples:
-        out.append("\n## Examples\n")
-    out += [f"\n{cell(explanation)}\n\n```\n{command}\n```\n" for command, explanation in tool.examples]
-    out.append("\n## Exit codes\n\n| code | meaning |\n|---|---|\n" + "".join(f"| {c} | {m} |\n" for c, m in _EXIT_CODES))
-    if tool.citations:
-        out.append("\n## References\n\n" + "".join(f"- {cell(citation)}\n" for citation in tool.citations))
+        out.append("\nCitation:\n" + "".join(f"  {_wrap(citation, 4)}\n" for citation in tool.citations))
     return "".join(out)
 
 

@@ -52,12 +52,6 @@ def _help(installation: Installation, words: Sequence[str], everything: bool = F
     raise BreastError(unknown_command(installation, what, pipeline_settings(installation)))
 
 
-def _page(page: str) -> int:
-    from . import declaration
-    from .request import breast_declaration
-    return _print(getattr(declaration, page)(breast_declaration()))
-
-
 def _run(installation: Installation, command: str, words: Sequence[str]) -> int:
     if command in installation.tools:
         return _become(installation.tool(command), words)
@@ -70,8 +64,6 @@ def _run(installation: Installation, command: str, words: Sequence[str]) -> int:
         return _print(f"breast (libbreast) {__version__}\n")
     if command == "list":
         return _print(tool_list(installation))
-    if command in ("--help-man", "--help-markdown"):
-        return _page(command.lstrip("-").replace("-", "_"))
     if command == "--completions":
         from .completion import completions
         return _print("".join(word + "\n" for word in completions(installation, words)))

@@ -58,12 +58,6 @@ def check_value(argument: Argument, value: str) -> None:
             raise BreastError(f"{label}: '{value}' is not a whole number")
         if not argument.low <= number <= argument.high:
             raise BreastError(f"{label} {number_text(number)}: must be {argument.bounds()}")
-    if argument.kind == "numbers":
-        parts = value.split(",")
-        if len(parts) != argument.count:
-            raise BreastError(f"{label}: '{value}' has {len(parts)} numbers; give {argument.count} as {argument.placeholder}")
-        for part in parts:
-            parse_number(part, label)
     if argument.kind == "choice" and value not in argument.choices:
         near = nearest(value, argument.choices)
         raise BreastError(f"{label}: '{value}' is none of {', '.join(argument.choices)}" +
@@ -107,10 +101,7 @@ def assign(tool: Declaration, tokens: Tokens) -> None:
         values = tokens.options.get(argument.label)
         if values is None:
             continue
-        if len(values) > 1 and not argument.repeatable:
+        if len(values) > 1:
             raise BreastError(f"{argument.label} is given {len(values)} times; give it once")
         _store(argument, values)
     _assign_positionals(tool, tokens.positionals)
-    for argument in tool.options:
-        if argument.required and argument.label not in tokens.options:
-            raise BreastError(f"{argument.usage()} is missing; usage: {synopsis(tool)}")

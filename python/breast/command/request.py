@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 from ..errors import BreastError, Failed
 from .assumed import SIDES, TUMOUR_RULE
-from .commands import COMMANDS, SUMMARY
+from .commands import COMMANDS
 from .declaration import Argument, Declaration
 from .parse import Tokens, assign, tokenize
 
@@ -75,7 +75,7 @@ def _declare_run(d: Declaration, r: PipelineRequest) -> None:
         "setting, whose name make cannot handle (blanks, quotes, brackets, ...) is accessed through a link with a plain name in "
         "DIR/.names; the name of the run's folder has underscores in place of such characters."]
     d.positionals.append(Argument("text", (), "SCAN", "T1-weighted MR without fat saturation, patient prone: NRRD, NIfTI, MetaImage or a "
-                                  "DICOM folder", required=True, store=_into(r, "scan")))
+                                  "DICOM folder", store=_into(r, "scan")))
     d.options.append(Argument("choice", ("--side",), "NAME", "breast to model: the patient's left or right (default: both, if the scan "
                               "shows both)", choices=SIDES, store=_into(r, "side")))
     r.target = "summary page"
@@ -119,7 +119,7 @@ def _declare_cohort(d: Declaration, r: PipelineRequest) -> None:
         "scan). It continues after a case that fails, and ends with one table of all cases (cohort.tsv, cohort.html) and the contours of "
         "every segmentation (contours.html). File names in a case file are relative to the current folder. SETTING=value applies to all "
         "cases and overrides their files.")
-    d.positionals.append(Argument("text", (), "DIR", "folder of case files", required=True, store=_into(r, "scan")))
+    d.positionals.append(Argument("text", (), "DIR", "folder of case files", store=_into(r, "scan")))
     _options(d, r, "number of cases that may run at the same time; they share the cores")
     d.options += [
         Argument("flag", ("--slurm",), "", "submit the cases to Slurm as one job array, followed by a job that makes the table; --dry-run "
@@ -160,28 +160,6 @@ def pipeline_command(name: str) -> Declaration:
                       ("breast page scan.nrrd --side left", "runs/scan-left/page.html, without the figures")]
     d.positionals.append(Argument("text", (), "[SETTING=value]", "a setting of the pipeline: `breast help settings` lists them",
                                   repeatable=True))
-    return d
-
-
-def breast_declaration() -> Declaration:
-    """The declaration of `breast` itself, for its manual page."""
-    d = Declaration("breast", SUMMARY)
-    d.paragraphs += [
-        "`breast TOOL` runs a tool of libbreast with its arguments, as in `breast segment scan.nrrd labels.vtkhdf --side left`. Each tool "
-        "has a manual page, breast-TOOL. `breast list` lists them, `breast help TOOL` prints the help of one.",
-        "`breast run SCAN [SETTING=value]...` runs the whole chain on a scan, `breast demo` on a simulated breast, "
-        "`breast cohort DIR` on every case file of a folder. They work from any folder; results are written to ./runs or to the folder "
-        "given by --runs."]
-    d.positionals += [Argument("text", (), "COMMAND", "run, demo, page, cohort, list, help, or the name of a tool"),
-                      Argument("text", (), "ARGUMENT", "arguments of the command", repeatable=True)]
-    for option in pipeline_command("run").options + pipeline_command("cohort").options:
-        if d.option(option.label) is None:
-            d.options.append(option)
-    d.options += [Argument("flag", ("--help",), "", "the commands and tools"), Argument("flag", ("--version",), "", "name and version")]
-    d.examples += [("breast demo", "the whole chain on a simulated breast; results in ./runs/average"),
-                   ("breast run scan.nrrd", "the whole chain on a scan; results in ./runs/scan-left and ./runs/scan-right"),
-                   ("breast help compress", "the help of a tool"),
-                   ("breast help TUMOUR", "what a setting does")]
     return d
 
 

@@ -24,7 +24,7 @@ from types import SimpleNamespace
 from ..errors import BreastError, Failed
 from ..output import is_stream, write_text, written_by_us
 from ..text_table import parse_number
-from .declaration import Argument, Declaration, help_completion, help_man, help_markdown, help_text, number_text
+from .declaration import Argument, Declaration, help_completion, help_text, number_text
 from .parse import Tokens, assign, tokenize
 from .paths import check_paths, named_values
 
@@ -100,20 +100,13 @@ class Tool:
         return self._positional(kind, placeholder, help, self._into(self._name(placeholder)))
 
     def words(self, placeholder: str, help: str, kind: str = "text") -> Argument:
-        argument = self._positional(kind, placeholder, help, self._list(self._name(placeholder)))
+        name = self._name(placeholder)
+        argument = self._positional(kind, placeholder, help, lambda values: setattr(self.args, name, list(values)))
         argument.repeatable = True
         return argument
 
-    def input(self, placeholder: str, help: str) -> Argument:
-        return self.word(placeholder, help, "input")
-
     def inputs(self, placeholder: str, help: str) -> Argument:
         return self.words(placeholder, help, "input")
-
-    def output(self, placeholder: str, help: str, more_endings: Sequence[str] = ()) -> Argument:
-        argument = self.word(placeholder, help, "output")
-        argument.endings = [*_endings(placeholder), *more_endings]
-        return argument
 
     # ---- options: args.name, without dashes at its beginning and with _ for those inside ----
 
@@ -125,18 +118,12 @@ class Tool:
     def text(self, names: str, placeholder: str, help: str, default: str = "") -> Argument:
         return self._option("text", names, placeholder, help, default)
 
-    def texts(self, names: str, placeholder: str, help: str) -> Argument:
-        argument = self._option("text", names, placeholder, help, [])
-        argument.repeatable, argument.store = True, self._list(self._name(argument.label))
-        return argument
-
     def choice(self, names: str, choices: Sequence[str], help: str, default: str = "") -> Argument:
         argument = self._option("choice", names, "NAME", help, default)
         argument.choices = choices
         return argument
 
-    def number(self, names: str, unit: str, help: str, default: float | None = None, low: float = -math.inf,
-               high: float = math.inf) -> Argument:
+    def number(self, names: str, unit: str, help: str, default: float, low: float = -math.inf, high: float = math.inf) -> Argument:
         argument = self._option("number", names, unit, help, default)
         argument.low, argument.high = low, high
         argument.store = self._into(self._name(argument.label), lambda text: parse_number(text, argument.label))
@@ -146,12 +133,6 @@ class Tool:
         argument = self._option("integer", names, unit, help, default)
         argument.low, argument.high = low, high
         argument.store = self._into(self._name(argument.label), lambda text: int(parse_number(text, argument.label)))
-        return argument
-
-    def numbers(self, names: str, placeholder: str, count: int, help: str, default: Sequence[float] = ()) -> Argument:
-        argument = self._option("numbers", names, placeholder, help, list(default))
-        argument.default_text, argument.count = ",".join(map(number_text, default)), count
-        argument.store = self._into(self._name(argument.label), lambda text: [float(part) for part in text.split(",")])
         return argument
 
     def input_file(self, names: str, placeholder: str, help: str) -> Argument:
@@ -194,8 +175,7 @@ class Tool:
     def _answer(self, words: list[str]) -> str | None:
         asked = words[:words.index("--")] if "--" in words else words
         pages = {"--help": help_text, "--help-all": lambda d: help_text(d, everything=True),
-                 "--version": lambda d: f"{d.name} (libbreast) {d.version}\n", "--help-man": help_man,
-                 "--help-markdown": help_markdown, "--help-completion": help_completion}
+                 "--version": lambda d: f"{d.name} (libbreast) {d.version}\n", "--help-completion": help_completion}
         return next((page(self.declaration) for name, page in pages.items() if name in asked), None)
 
     def _check(self, tokens: Tokens) -> None:
@@ -218,9 +198,6 @@ class Tool:
     def _into(self, name: str, convert: Callable[[str], object] = str) -> Callable[[list[str]], None]:
         return lambda values: setattr(self.args, name, convert(values[0]))
 
-    def _list(self, name: str) -> Callable[[list[str]], None]:
-        return lambda values: setattr(self.args, name, list(values))
-
     def _set(self, name: str) -> Callable[[list[str]], None]:
         return lambda values: setattr(self.args, name, True)
 
@@ -231,7 +208,7 @@ class Tool:
         return found
 
     def _positional(self, kind: str, placeholder: str, help: str, store: Callable[[list[str]], None]) -> Argument:
-        argument = Argument(kind, (), placeholder, help, required=True, store=store)
+        argument = Argument(kind, (), placeholder, help, store=store)
         self.declaration.positionals.append(argument)
         return argument
 

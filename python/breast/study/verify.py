@@ -5,11 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..errors import Failed
-from ..text_table import read_text
 from .kinds import Request, kind
 from .stage_report import StageReport
-from .summary import lines_of
-from .table import Table, number_of, or_dash, parse_table, table_if_any
+from .table import Table, number_of, or_dash, table_if_any
 
 
 def verdict_of(expected: str, computed: str, tolerance: str) -> str:
@@ -37,21 +35,6 @@ def verify(expected: Table, run: Path) -> Table:
     return result
 
 
-def expected_anew(text: str, run: Path) -> str:
-    """The table of expected values, brought up to date: where the run differs, its own value replaces the expected one. Rows that
-    agree and comments stay as they are, so that a bound remains a bound."""
-    verified = iter(verify(parse_table(text, "expected values"), run))
-    lines = []
-    for line in lines_of(text):
-        if line and not line.startswith(("#", "file\t")):
-            cells, found = line.split("\t"), next(verified)
-            if found["verdict"] != "ok":
-                cells[3] = found["computed"]
-            line = "\t".join(cells)
-        lines.append(line + "\n")
-    return "".join(lines)
-
-
 def _value_of(file: Path, row: str, column: str) -> str:
     if file.suffix == ".json":
         return StageReport.read(file).text(column)
@@ -67,8 +50,3 @@ def _verify(request: Request) -> Table:
         raise Failed(f"{len(wrong)} values differ from {request.word(0)}" + "".join(
             "; {file} {row} {column} is {computed}, expected {expected} within {tolerance}".format(**row) for row in wrong))
     return result
-
-
-@kind("expected", "EXPECTED.tsv RUN", "the table of expected values, brought up to date: a row from which the run differs gets the value of the run")
-def _expected(request: Request) -> str:
-    return expected_anew(read_text(request.word(0)), request.path(1))

@@ -3,7 +3,9 @@
 # tissue with that of living women (pipelines/invivo/women.tsv). Cases with a scan are included if POPULATION_SCANS names its file.
 #   make population                                the table, and the figure of motion against depth
 #   make compressed-population                     the same breasts between plates, CC and MLO, one row each
-# The calibration half of the cohort is used by `make calibrate-invivo` (tests/bench/calibrate.mk).
+# The calibration half of the cohort is used by `make calibrate-invivo` (calibrate.mk).
+POPULATION_ELEMENTS ?= 10
+POPULATION_MATERIALS ?= invivo
 POPULATION_RUNS := $(RUNS)/population
 population_files = $(patsubst %,$(POPULATION_RUNS)/%/$2.vtkhdf,$1)
 population_both = $(population_calibration) $(population_judging)

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // calibrate: fits a phantom to given landmark displacements.
-#include "identification/calibration/calibrate.hpp"
-
 #include <array>
 
+#include "bench/phantom_fit.hpp"
 #include "cli/tool.hpp"
 #include "core/error.hpp"
 #include "core/table.hpp"
