@@ -76,8 +76,9 @@ Volume<float> level_of(const Work& work, const Volume<float>& scan, SuppressedFa
       }
     }
   }
-  fat.near_failed = near / std::max(1.0, tissue);
-  const Mask& allowed = fat.near_failed > most_near_failed ? anywhere : clear;
+  const double share = near / std::max(1.0, tissue);
+  fat.near_failed = std::max(fat.near_failed, share);  // a level from beside it may hide it later
+  const Mask& allowed = share > most_near_failed ? anywhere : clear;
   return resampled(suppressed_level(coarse, allowed, distance).log_bias, scan.grid);
 }
 

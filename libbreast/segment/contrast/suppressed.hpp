@@ -20,10 +20,11 @@ struct MuscleOverFat {
 
 /// What is known of suppressed fat, on the working grid.
 struct SuppressedFat {
-  Volume<float> log_level;       ///< log brightness of suppressed fat
-  Mask failed;                   ///< where fat is not suppressed
-  double failed_ml = 0;          ///< of that
-  double near_failed = 0;        ///< share of the tissue below the skin within 10 mm of `failed`
+  Volume<float> log_level;  ///< log brightness of suppressed fat
+  Mask failed;              ///< where fat is not suppressed
+  double failed_ml = 0;     ///< of that
+  /// The largest share, in any round, of the tissue below the skin that lies within 10 mm of it.
+  double near_failed = 0;
   double failed_brightness = 1;  ///< of that fat, relative to suppressed fat; 1 if there is none
   double water = 1.35;           ///< brightness of muscle, as the wall is sought
   double gland = 0;              ///< brightness of the breast's bright end, once it is shown
