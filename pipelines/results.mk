@@ -74,7 +74,8 @@ endif
 # shown; as prerequisites their equilibria would be solved again, so that the page records them and their dates instead.
 dated = $(foreach file,$(wildcard $1),$(file) $(shell stat -c %Y $(file)))
 page_settings = $(BIN)/tabulate $(call named,$(MR)) $(page_options) $(of_patient) $(call dated,$(call pictures,supine-states cc-states mlo-states))
-$(RUN)/page.html: $(RUN)/lookup.h5 $(addprefix $(RUN)/,cc.vti mlo.vti labels.vtkhdf mesh.vtkhdf) $(of_patient) $(MR_FILES) $(BIN)/tabulate $(call changed,page)
+$(RUN)/page.html: $(RUN)/lookup.h5 $(addprefix $(RUN)/,cc.vti mlo.vti labels.vtkhdf mesh.vtkhdf) $(of_patient) $(MR_FILES) $(BIN)/tabulate \
+  $(if $(no_tumour),,$(BIN)/cc2mlo) $(call changed,page)
 	@$(if $(of_patient),,rm -f $(addprefix $(RUN)/patient,.json .vtp .tsv -cc.png -mlo.png))
 	$(call prints,page,$@) $(tabulate) page $(RUN) $(MR) $(page_options)
 page: $(RUN)/page.html

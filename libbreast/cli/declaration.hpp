@@ -57,6 +57,8 @@ struct Declaration {
 
 /// The one-line synopsis: "forward REFERENCE.vtkhdf DEFORMED.vtkhdf [options]".
 std::string synopsis(const Declaration& tool);
+/// A number as people write it, without an exponent where it has at most 15 digits: 100000, 0.0001.
+std::string number_text(double value);
 /// "number in mm from 0 to 40; default: 2": the remarks that the help adds to an argument's text.
 std::string remarks(const Argument& argument);
 /// "-o, --output FILE".

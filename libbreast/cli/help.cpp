@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <iterator>
 #include <sstream>
@@ -156,6 +158,14 @@ std::string usage(const Argument& argument) {
   return argument.kind == ArgumentKind::flag ? text : text + " " + argument.placeholder;
 }
 
+std::string number_text(double value) {
+  const double size = std::abs(value);
+  if (!(value == 0 || (size >= 1e-5 && size < 1e15))) return format_number(value);
+  char buffer[64];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed);
+  return {buffer, end.ptr};
+}
+
 std::string remarks(const Argument& argument) {
   std::string text;
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
@@ -163,11 +173,11 @@ std::string remarks(const Argument& argument) {
   const bool below = argument.high < std::numeric_limits<double>::infinity();
   if (argument.kind == ArgumentKind::number || argument.kind == ArgumentKind::integer) {
     if (above && below) {
-      add(format_number(argument.low) + " to " + format_number(argument.high));
+      add(number_text(argument.low) + " to " + number_text(argument.high));
     } else if (above) {
-      add("at least " + format_number(argument.low));
+      add("at least " + number_text(argument.low));
     } else if (below) {
-      add("at most " + format_number(argument.high));
+      add("at most " + number_text(argument.high));
     }
   }
   if (argument.required && !argument.positional()) add("required");

@@ -19,7 +19,7 @@ std::string suggestion(const std::string& given, const std::vector<std::string>&
 
 void check_range(const Argument& argument, double value) {
   if (value >= argument.low && value <= argument.high) return;
-  throw input_error(argument.label(), " ", format_number(value), ": must be ", remarks([&] {
+  throw input_error(argument.label(), " ", number_text(value), ": must be ", remarks([&] {
                       Argument bare = argument;  // only the range is wanted
                       bare.default_text.clear();
                       bare.required = bare.repeatable = false;

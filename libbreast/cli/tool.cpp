@@ -118,7 +118,7 @@ Tool& Tool::number(double& value, const std::string& name, const std::string& un
   Argument& argument = impl_->add(option(ArgumentKind::number, name, unit, help));
   argument.low = low;
   argument.high = high;
-  argument.default_text = format_number(value);
+  argument.default_text = number_text(value);
   argument.store = [&value, where = argument.label()](const std::vector<std::string>& given) {
     value = parse_number(given.front(), where);
   };
@@ -130,7 +130,7 @@ Tool& Tool::number(std::optional<double>& value, const std::string& name, const 
   Argument& argument = impl_->add(option(ArgumentKind::number, name, unit, help));
   argument.low = low;
   argument.high = high;
-  if (value) argument.default_text = format_number(*value);
+  if (value) argument.default_text = number_text(*value);
   argument.store = [&value, where = argument.label()](const std::vector<std::string>& given) {
     value = parse_number(given.front(), where);
   };
@@ -179,7 +179,7 @@ Tool& Tool::numbers(std::vector<double>& values, const std::string& name,
   Argument& argument = impl_->add(option(ArgumentKind::numbers, name, placeholder, help));
   argument.count = count;
   for (const double x : values) {
-    argument.default_text += (argument.default_text.empty() ? "" : ",") + format_number(x);
+    argument.default_text += (argument.default_text.empty() ? "" : ",") + number_text(x);
   }
   argument.store = [&values, where = argument.label()](const std::vector<std::string>& given) {
     values.clear();

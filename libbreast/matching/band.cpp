@@ -43,24 +43,36 @@ Vec2 projected(const ViewPose& pose, const Vec3& at, const Vec3& d) {
   return (pose.project(at + step * d) - pose.project(at - step * d)) / (2 * step);
 }
 
-// Unit vector across the curve at each point; separate pieces of a curve have their own.
-std::vector<Vec2> normals(const MatchedCurve& curve) {
+// Unit vectors across the curve at each point, of which separate pieces have their own: over a millimetre
+// to either side, and along the pieces of the polyline before and after it. At a sharp corner the first is
+// partly along the curve.
+struct Across {
+  std::vector<Vec2> smooth;
+  std::vector<std::array<Vec2, 2>> beside;
+};
+Across across(const MatchedCurve& curve) {
   const auto& points = curve.points;
-  std::vector<Vec2> normal(points.size(), Vec2(1, 0));
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    std::size_t a = i, b = i;  // a millimetre either way smooths over elements
-    while (a > 0 && points[a - 1].stretch == points[i].stretch &&
-           (points[a].to_uv - points[i].to_uv).norm() < 1) {
-      --a;
-    }
-    while (b + 1 < points.size() && points[b + 1].stretch == points[i].stretch &&
-           (points[b].to_uv - points[i].to_uv).norm() < 1) {
-      ++b;
-    }
+  const auto joined = [&](std::size_t a, std::size_t b) {
+    return points[a].stretch == points[b].stretch;
+  };
+  const auto normal = [&](std::size_t a, std::size_t b, const Vec2& without) {
     const Vec2 along = points[b].to_uv - points[a].to_uv;
-    if (along.norm() > 0) normal[i] = Vec2(-along.y(), along.x()).normalized();
+    return along.norm() > 1e-6 ? Vec2(Vec2(-along.y(), along.x()).normalized()) : without;
+  };
+  Across found;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto near = [&](std::size_t k) { return (points[k].to_uv - points[i].to_uv).norm() < 1; };
+    std::size_t a = i, b = i;
+    while (a > 0 && joined(a - 1, i) && near(a)) --a;
+    while (b + 1 < points.size() && joined(b + 1, i) && near(b)) ++b;
+    found.smooth.push_back(normal(a, b, Vec2(1, 0)));
+    const bool first = i == 0 || !joined(i - 1, i),
+               last = i + 1 == points.size() || !joined(i, i + 1);
+    const Vec2 before = first ? found.smooth[i] : normal(i - 1, i, found.smooth[i]),
+               after = last ? before : normal(i, i + 1, before);
+    found.beside.push_back({first ? after : before, after});
   }
-  return normal;
+  return found;
 }
 
 }  // namespace
@@ -153,7 +165,7 @@ Vec2 BandModel::shift(const ColumnPoint& point, const Mat3& carry, const Cause& 
 
 Band BandModel::band(const MatchedCurve& curve) const {
   Band band;
-  const std::vector<Vec2> normal = normals(curve);
+  const Across normals = across(curve);
   const ViewPose& first = matcher_.from_frame().pose;
   std::map<std::string, double> squares;
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
@@ -161,13 +173,15 @@ Band BandModel::band(const MatchedCurve& curve) const {
     const Mat3 carry = jacobian(matcher_.to(), matcher_.to().points, point) *
                        jacobian(matcher_.from(), matcher_.from().points, point).inverse();
     double variance = 0;
+    const auto add = [&](const std::string& cause, double square) {
+      variance += square;
+      squares[cause] += square;
+    };
     const auto count = [&](const std::string& cause, const Vec2& shift) {
-      const double across = normal[i].dot(shift);
-      variance += across * across;
-      squares[cause] += across * across;
+      for (const Vec2& normal : normals.beside[i]) add(cause, 0.5 * std::pow(normal.dot(shift), 2));
     };
     for (const Cause& cause : causes_) count(cause.name, shift(point, carry, cause));
-    for (const auto& [cause, deviation] : in_second_) count(cause, deviation * normal[i]);
+    for (const auto& [cause, deviation] : in_second_) add(cause, deviation * deviation);
     for (const Vec3& axis : {first.e_u, first.e_v}) {
       const double magnified = projected(first, point.from, axis).norm();
       for (const auto& [cause, deviation] : in_first_) {
@@ -175,12 +189,12 @@ Band BandModel::band(const MatchedCurve& curve) const {
                                carry * (deviation / magnified * axis)));
       }
     }
-    band.points.push_back({point.to_uv, normal[i], std::sqrt(variance)});
-    if (i > 0 && curve.points[i - 1].stretch == point.stretch) {
-      const BandPoint& before = band.points[i - 1];
-      band.area_95 += half_width_95 * (before.deviation + band.points[i].deviation) *
-                      (band.points[i].uv - before.uv).norm();
-    }
+    band.points.push_back({point.to_uv, normals.smooth[i], std::sqrt(variance)});
+  }
+  for (std::size_t i = 1; i < band.points.size(); ++i) {
+    if (curve.points[i - 1].stretch != curve.points[i].stretch) continue;
+    const BandPoint &before = band.points[i - 1], &at = band.points[i];
+    band.area_95 += half_width_95 * (before.deviation + at.deviation) * (at.uv - before.uv).norm();
   }
   for (const auto& [cause, sum] : squares) {
     if (sum > 0) band.by_cause[cause] = std::sqrt(sum / double(curve.points.size()));

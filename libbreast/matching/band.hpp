@@ -3,6 +3,7 @@
 // the second image by derivatives of the two compressed shapes.
 #pragma once
 
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -32,7 +33,7 @@ std::string default_priors_text();
 /// kept.
 std::vector<Prior> priors_from(const Table& table, const std::string& where);
 
-/// A point of the band, with the standard deviation across the curve, mm.
+/// A point of the band, with the standard deviation across the curve on either side of it, mm.
 struct BandPoint {
   Vec2 uv;      ///< point of the curve, second image
   Vec2 normal;  ///< unit, across the curve

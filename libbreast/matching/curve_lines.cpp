@@ -5,6 +5,8 @@
 #include <cmath>
 #include <functional>
 
+#include "matching/band_edges.hpp"
+
 namespace breast {
 
 namespace {
@@ -47,16 +49,13 @@ void add_column(Writer& writer, const std::string& name, int query, const Matche
   }
 }
 
-// Both edges of the band, one line per stretch and side.
+// Both edges of the band of each stretch.
 void add_band(Writer& writer, const std::string& name, int query, const MatchResult& result,
               double width, const ViewPose& to) {
-  const auto& points = result.curve.points;
-  for (const double side : {-width, width}) {
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const BandPoint& at = result.band->points[i];
-      if (i == 0 || points[i - 1].stretch != points[i].stretch) writer.line(name, query);
-      const Vec2 uv = at.uv + side * at.deviation * at.normal;
-      writer.point(to.on_detector(uv), uv, points[i].depth);
+  for (const BandLine& line : stretches_of(result.curve, *result.band)) {
+    for (const std::vector<Vec2>& edge : band_edges(line, width)) {
+      writer.line(name, query);
+      for (const Vec2& uv : edge) writer.point(to.on_detector(uv), uv, 0);
     }
   }
 }

@@ -22,6 +22,7 @@ void store(const MatchedCurve& curve, const BandModel* model, std::size_t node,
   if (curve.in_air()) return;
   const auto& points = curve.points;
   lookup.depth[node] = float(points.back().depth);
+  lookup.length[node] = float(curve.length);
   const Band band = model != nullptr ? model->band(curve) : Band{};
   std::size_t after = 1;  // the first point at or beyond the sample
   for (int k = 0; k < lookup.samples; ++k) {
@@ -35,9 +36,8 @@ void store(const MatchedCurve& curve, const BandModel* model, std::size_t node,
     for (int c = 0; c < 2; ++c) lookup.curve[2 * at + std::size_t(c)] = float(uv[c]);
     for (int c = 0; c < 3; ++c) lookup.imaged[3 * at + std::size_t(c)] = float(imaged[c]);
     if (model == nullptr) continue;
-    const BandPoint& across = band.points[f < 0.5 ? after - 1 : after];
-    lookup.deviation[at] = float(across.deviation);
-    for (int c = 0; c < 2; ++c) lookup.across[2 * at + std::size_t(c)] = float(across.normal[c]);
+    lookup.deviation[at] =
+        float((1 - f) * band.points[after - 1].deviation + f * band.points[after].deviation);
   }
 }
 
@@ -62,9 +62,9 @@ MatchLookup match_lookup(const Matcher& matcher, const BandModel* band, double p
                     points = nodes * std::size_t(samples);
   lookup.status.assign(nodes, 0);
   lookup.depth.assign(nodes, 0);
+  lookup.length.assign(nodes, 0);
   lookup.curve.assign(2 * points, 0);
   lookup.deviation.assign(points, 0);
-  lookup.across.assign(2 * points, 0);
   lookup.imaged.assign(3 * points, 0);
   std::atomic<int> done{0};
 #pragma omp parallel for schedule(dynamic, 1)

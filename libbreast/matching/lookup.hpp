@@ -29,9 +29,9 @@ struct MatchLookup {
   int nu = 0, nv = 0, samples = 0;
   std::vector<std::uint8_t> status;  ///< LookupStatus, per node
   std::vector<float> depth;          ///< mm of tissue, per node
+  std::vector<float> length;         ///< mm of the curve, per node
   std::vector<float> curve;          ///< u, v in the second image, mm
   std::vector<float> deviation;  ///< mm, one standard deviation across the curve (0 without band)
-  std::vector<float> across;     ///< unit vector across the curve
   std::vector<float> imaged;     ///< x, y, z of the column in the MR frame, mm
   std::vector<std::string> band_without;  ///< priors that the deviation does not include
   History history;

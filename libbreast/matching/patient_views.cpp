@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "matching/band_edges.hpp"
 
 namespace breast {
 
@@ -15,32 +16,22 @@ std::vector<Vec2> pixels(const AlignedView& view, const std::vector<Vec2>& uv) {
   return pixels;
 }
 
-// The curve shifted across itself by `width` deviations, one line a stretch.
-std::vector<std::vector<Vec2>> shifted(const MatchResult& result, double width) {
+// The curve, one line a stretch.
+std::vector<std::vector<Vec2>> stretches(const MatchResult& result) {
   std::vector<std::vector<Vec2>> lines;
   const auto& points = result.curve.points;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (i == 0 || points[i - 1].stretch != points[i].stretch) lines.emplace_back();
-    Vec2 uv = points[i].to_uv;
-    if (result.band && width != 0) {
-      const BandPoint& at = result.band->points[i];
-      uv += width * at.deviation * at.normal;
-    }
-    lines.back().push_back(uv);
+    lines.back().push_back(points[i].to_uv);
   }
   return lines;
 }
 
 void draw_band(ColourPicture& picture, const AlignedView& view, const MatchResult& result,
                double width) {
-  const auto low = shifted(result, -width), high = shifted(result, width);
-  for (std::size_t l = 0; l < low.size(); ++l) {
-    const auto a = pixels(view, low[l]), b = pixels(view, high[l]);
-    for (std::size_t i = 1; i < a.size(); ++i) {
-      // Where the curve turns sharply the sides change places; their lines must not cross.
-      const bool crossed = (a[i] - b[i]).dot(a[i - 1] - b[i - 1]) < 0;
-      picture.quadrilateral({a[i - 1], crossed ? b[i] : a[i], crossed ? a[i] : b[i], b[i - 1]});
-    }
+  for (const BandLine& line : stretches_of(result.curve, *result.band)) {
+    for (const auto& [a, b, c, d] : band_pieces(line, width))
+      picture.quadrilateral({view.pixel(a), view.pixel(b), view.pixel(c), view.pixel(d)});
   }
 }
 
@@ -83,7 +74,7 @@ ColourPicture PatientViews::picture(const Matcher& matcher,
   }
   picture.paint(cyan, 0.7);
   for (const MatchResult& result : results) {
-    for (const auto& stretch : shifted(result, 0)) picture.line(pixels(to_, stretch), bold);
+    for (const auto& stretch : stretches(result)) picture.line(pixels(to_, stretch), bold);
   }
   picture.paint(yellow, 1);
   if (const auto nipple = matcher.to_landmark("nipple")) {
@@ -114,12 +105,7 @@ Table curve_points_table(const Matcher& matcher, const std::vector<MatchResult>&
   const std::string view = view_column(matcher.to_frame().view);
   Table table;
   table.columns = {"query", "stretch", "depth_mm", view + "_u_mm", view + "_v_mm", "deviation_mm"};
-  if (views != nullptr) {
-    for (const char* what : {"", "low_95_", "high_95_"}) {
-      table.columns.push_back(view + "_" + what + "x_px");
-      table.columns.push_back(view + "_" + what + "y_px");
-    }
-  }
+  if (views != nullptr) table.columns.insert(table.columns.end(), {view + "_x_px", view + "_y_px"});
   for (std::size_t q = 0; q < results.size(); ++q) {
     const auto& points = results[q].curve.points;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -129,14 +115,8 @@ Table curve_points_table(const Matcher& matcher, const std::vector<MatchResult>&
                             format_fixed(p.to_uv.x(), 4), format_fixed(p.to_uv.y(), 4),
                             band ? format_fixed(band->deviation, 4) : "-"});
       if (views == nullptr) continue;
-      for (const double width : {0.0, -half_width_95, half_width_95}) {
-        const bool known = band || width == 0;
-        const Vec2 across = band ? Vec2(width * band->deviation * band->normal) : Vec2(0, 0);
-        const Vec2 pixel = views->to().pixel(p.to_uv + across);
-        for (int k = 0; k < 2; ++k) {
-          table.rows.back().push_back(known ? format_fixed(pixel[k], 3) : "-");
-        }
-      }
+      const Vec2 pixel = views->to().pixel(p.to_uv);
+      for (int k = 0; k < 2; ++k) table.rows.back().push_back(format_fixed(pixel[k], 3));
     }
   }
   return table;

@@ -25,9 +25,9 @@ class Lookup:
         pitch_mm: distance of the grid's points.
         status: codes, see STATUS.
         depth_mm: tissue along the column.
+        length_mm: of the curve in the second image.
         curve_mm: (nv, nu, samples, 2) u, v in the second image, equally far apart in the column.
-        deviation_mm: (nv, nu, samples) one standard deviation across the curve.
-        across: (nv, nu, samples, 2) unit vector across it.
+        deviation_mm: (nv, nu, samples) one standard deviation across the curve; 0 without a band.
         imaged_mm: (nv, nu, samples, 3) the column in the scan, LPS mm.
         band_without: parameters that the deviation does not count.
         side: 'left' or 'right'.
@@ -40,9 +40,9 @@ class Lookup:
     pitch_mm: float
     status: np.ndarray
     depth_mm: np.ndarray
+    length_mm: np.ndarray
     curve_mm: np.ndarray
     deviation_mm: np.ndarray
-    across: np.ndarray
     imaged_mm: np.ndarray
     band_without: list[str]
     side: str
@@ -69,6 +69,6 @@ def read_lookup(file: str | os.PathLike[str], back: bool = False) -> Lookup:
     curve = doc.numbers(f"{group}/curve_mm", (*status.shape, None, 2))
     along = curve.shape[:3]
     return Lookup(doc.file, doc.text(f"{group}@from_view", views), doc.text(f"{group}@to_view", views), pitch, status,
-                  doc.numbers(f"{group}/depth_mm", status.shape), curve, doc.numbers(f"{group}/deviation_mm", along),
-                  doc.numbers(f"{group}/across", (*along, 2)), doc.numbers(f"{group}/imaged_mm", (*along, 3)),
+                  doc.numbers(f"{group}/depth_mm", status.shape), doc.numbers(f"{group}/length_mm", status.shape), curve,
+                  doc.numbers(f"{group}/deviation_mm", along), doc.numbers(f"{group}/imaged_mm", (*along, 3)),
                   doc.texts(f"{group}/band_without", (None,)), read_side(doc), read_history(doc))

@@ -240,7 +240,7 @@ class WhatIsSaid(unittest.TestCase):
     def test_a_band_is_said_as_half_its_width(self):
         def wide(*place):
             line = line_at(*place)
-            return dataclasses.replace(line, deviation=np.full(len(line.points), 9.1), across=np.tile([0.6, 0.8], (len(line.points), 1)))
+            return dataclasses.replace(line, deviation=np.full(len(line.points), 9.1))
         with unittest.mock.patch("breast.page.lines.line_at", wide):
             page = views_page(self.run_folder, self.moved_tumour()[0])
         self.assertIn("about 15 mm to either side of it (90 %)", words_of(page))

@@ -86,7 +86,7 @@ MatchLookup lookup() {
   out.depth.assign(16, 30);
   out.curve.assign(96, 1);
   out.deviation.assign(48, 1);
-  out.across.assign(96, 0);
+  out.length.assign(16, 40);
   out.imaged.assign(144, 2);
   return out;
 }

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -13,6 +14,7 @@
 #include "core/error.hpp"
 #include "fixtures/analytic_breast.hpp"
 #include "fixtures/squashed.hpp"
+#include "matching/band_edges.hpp"
 #include "mesh/locate.hpp"
 #include "meshing/body_mesh.hpp"
 
@@ -231,6 +233,44 @@ TEST(Band, ACovarianceCountsWithItsCorrelations) {
   DerivativeFields none;
   std::vector<Prior> priors;
   EXPECT_THROW(use_covariance({"wall"}, Eigen::MatrixXd::Identity(1, 1), none, to, priors), Error);
+}
+
+// Lines that turn by 30 to 150 degrees at a corner, and back after 12 mm, with a band that gets wider.
+TEST(Band, EveryPlaceOfItsEdgesIsHalfItsWidthFromTheCurve) {
+  for (const double degrees : {30.0, 90.0, 120.0, 150.0}) {
+    MatchedCurve curve;
+    Band band;
+    Vec2 at(0, 0);
+    double angle = 0;
+    for (int i = 0; i < 120; ++i) {
+      if (i == 60) angle += degrees * std::numbers::pi / 180;
+      if (i == 72) angle -= degrees * std::numbers::pi / 180;
+      ColumnPoint point;
+      point.to_uv = at;
+      curve.points.push_back(point);
+      band.points.push_back({at, Vec2(0, 1), 2 + 0.02 * i});
+      at += Vec2(std::cos(angle), std::sin(angle));
+    }
+    const std::vector<BandLine> lines = stretches_of(curve, band);
+    ASSERT_EQ(lines.size(), 1u);
+    int places = 0;
+    for (const std::vector<Vec2>& edge : band_edges(lines[0], half_width_95)) {
+      for (const Vec2& place : edge) {
+        double nearest = 1e9;  // of the half width
+        for (std::size_t i = 1; i < lines[0].size(); ++i) {
+          const BandPoint &a = lines[0][i - 1], &b = lines[0][i];
+          const Vec2 along = b.uv - a.uv;
+          const double f = std::clamp((place - a.uv).dot(along) / along.squaredNorm(), 0.0, 1.0);
+          const double half = half_width_95 * ((1 - f) * a.deviation + f * b.deviation);
+          nearest = std::min(nearest, (place - a.uv - f * along).norm() / half);
+        }
+        EXPECT_GT(nearest, 0.96) << degrees << " degrees, " << place.transpose();
+        EXPECT_LT(nearest, 1.03) << degrees << " degrees, " << place.transpose();
+        ++places;
+      }
+    }
+    EXPECT_GT(places, 100);
+  }
 }
 
 TEST(Band, PriorsAreChecked) {

@@ -196,12 +196,12 @@ std::string outcome(const fs::path& folder, const ShortVolume& expected, const F
     EXPECT_LT((read.grid.direction - expected.grid.direction).cwiseAbs().maxCoeff(), 2e-3);
     EXPECT_TRUE(std::equal(read.voxels.begin(), read.voxels.end(), expected.voxels.begin(),
                            expected.voxels.end()));
-    for (const char* kind : {"presentation state", "report", "localiser", "copy of another file"}) {
+    for (const char* kind : {"presentation state", "report", "localiser", "copy of another image"}) {
       const bool said = std::any_of(
           source.remarks.begin(), source.remarks.end(),
           [&](const std::string& text) { return text.find(kind) != std::string::npos; });
       const bool there =
-          with.contains(kind == std::string("copy of another file") ? "sent twice" : kind);
+          with.contains(kind == std::string("copy of another image") ? "sent twice" : kind);
       EXPECT_EQ(said, there) << kind << ": passed over without a word";
     }
     return "read";

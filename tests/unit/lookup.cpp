@@ -45,6 +45,7 @@ TEST(Lookup, HoldsTheCurvesOfTheMatcher) {
       }
       ++matched;
       EXPECT_NEAR(lookup.depth[node], curve.points.back().depth, 1e-4);
+      EXPECT_NEAR(lookup.length[node], curve.length, 1e-4);
       for (int k = 0; k < lookup.samples; k += 6) {
         const std::size_t at = node * std::size_t(lookup.samples) + std::size_t(k);
         EXPECT_LT(distance_to_curve(curve, Vec2(lookup.curve[2 * at], lookup.curve[2 * at + 1])),

@@ -20,9 +20,9 @@ void put_lookup(const std::string& group, const MatchLookup& lookup, Document& d
   };
   put("status", lookup.status, {});
   put("depth_mm", lookup.depth, {});
+  put("length_mm", lookup.length, {});
   put("curve_mm", lookup.curve, {samples, 2});
   put("deviation_mm", lookup.deviation, {samples});
-  put("across", lookup.across, {samples, 2});
   put("imaged_mm", lookup.imaged, {samples, 3});
   document.datasets[group + "/band_without"] = array_of(lookup.band_without);
 }

@@ -63,7 +63,7 @@ std::vector<std::string> passed_over(const Contents& contents) {
   };
   for (const auto& [kind, count] : contents.found.without_pixels) add(kind, count);
   add("localiser image", contents.localisers);
-  add("copy of another file", contents.found.copies);
+  add("copy of another image", contents.found.copies);
   add("link to a folder", contents.found.folders_not_followed);
   if (kinds.empty()) return {};
   return {contents.folder.string() + ": passed over: " + join(kinds, ", ")};

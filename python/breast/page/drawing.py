@@ -42,7 +42,7 @@ class Picture:
         title, words: in a corner, and at left, right, top and bottom.
         outward: whether the free margin is at the right.
         marks: (kind, x, y), kind nipple, tumour or artificial.
-        line: points of the line, "x,y x,y", or "".
+        line: points of each stretch of the line, "x,y x,y".
         band: path of the band, or "".
         outlines: lines of the simulated outline in a patient's image.
         alt: what the picture shows, for those who cannot see it.
@@ -57,7 +57,7 @@ class Picture:
     outward: bool
     alt: str
     marks: list[tuple[str, float, float]] = field(default_factory=list)
-    line: str = ""
+    line: list[str] = field(default_factory=list)
     band: str = ""
     outlines: list[str] = field(default_factory=list)
 
@@ -164,7 +164,7 @@ def _mark(picture: Picture, state: State, put: Callable[[str], np.ndarray | None
 
 
 def _draw_line(picture: Picture, line: MatchedLine, put: Callable[[np.ndarray], np.ndarray]) -> None:
-    picture.line = _points(put(line.points))
+    picture.line = [_points(put(stretch)) for stretch in line.stretches]
     if line.to_either_side_mm > 0:
         picture.band = " ".join(f"M{_points(put(piece))}Z" for piece in line.band())
     picture.alt += f"; a line of {line.length_mm:.0f} mm on which the tumour lies, as seen in the other view"

@@ -63,16 +63,16 @@ def packed_lookup(lookup: Lookup, middle: np.ndarray) -> dict[str, Any]:
     status = lookup.status[::stride, ::stride]
     tissue = status != 0
 
-    def packed(values: np.ndarray, kind: str, step: float = _UNIT) -> str:
+    def packed(values: np.ndarray, kind: str) -> str:
         bounds = np.iinfo(kind)
-        return _array(np.clip(np.rint(values / step), bounds.min, bounds.max).astype(kind))
+        return _array(np.clip(np.rint(values / _UNIT), bounds.min, bounds.max).astype(kind))
 
     def kept(values: np.ndarray) -> np.ndarray:
         return values[::stride, ::stride][tissue].astype(float)
     return {"pitch": lookup.pitch_mm * stride, "nu": status.shape[1], "nv": status.shape[0], "samples": lookup.curve_mm.shape[2],
             "status": _array(status.astype("u1")), "depth": packed(kept(lookup.depth_mm), "<u2"),
-            "curve": packed(kept(lookup.curve_mm), "<i2"), "deviation": packed(kept(lookup.deviation_mm), "<u2"),
-            "across": packed(kept(lookup.across), "i1", 1 / 127), "imaged": packed(kept(lookup.imaged_mm) - middle, "<i2")}
+            "length": packed(kept(lookup.length_mm), "<u2"), "curve": packed(kept(lookup.curve_mm), "<i2"),
+            "deviation": packed(kept(lookup.deviation_mm), "<u2"), "imaged": packed(kept(lookup.imaged_mm) - middle, "<i2")}
 
 
 def packed_body(state: State) -> dict[str, Any]:

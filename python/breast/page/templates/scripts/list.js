@@ -1,10 +1,9 @@
 // The kept points as a list of buttons: choose one, or remove it.
-const lengthOf = line => line.reduce((sum, p, i) => i ? sum + Math.hypot(p[0] - line[i - 1][0], p[1] - line[i - 1][1]) : 0, 0);
 // Half the width of the 90 % band, which at most a tenth of the line exceeds (page/lines.py).
 function widthOf(match) {
   const pieces = match.curve.slice(1).map((p, i) => ({length: Math.hypot(p[0] - match.curve[i][0], p[1] - match.curve[i][1]),
                                                       deviation: (match.deviation[i] + match.deviation[i + 1]) / 2}));
-  let left = 0.1 * lengthOf(match.curve);
+  let left = 0.1 * pieces.reduce((sum, piece) => sum + piece.length, 0);
   for (const piece of pieces.sort((a, b) => b.deviation - a.deviation)) if ((left -= piece.length) < 0) return sides90 * piece.deviation;
   return 0;
 }
@@ -12,13 +11,13 @@ const viewName = k => views[k].image.view;
 function brief(point) {
   const match = point.match, distance = nippleDistance(point.k, point.u, point.v);
   return viewName(point.k) + (distance > 0 ? ', ' + distance.toFixed(0) + ' mm from the nipple' : '') + ': in ' + viewName(1 - point.k) +
-      ' on a line of ' + lengthOf(match.curve).toFixed(0) + ' mm' +
+      ' on a line of ' + match.length.toFixed(0) + ' mm' +
       (widthOf(match) > 0 ? ', about ' + widthOf(match).toFixed(0) + ' mm to either side (90 %)' : '') +
       (match.kind > 1 ? '; ' + statusText[match.kind] : '');
 }
 function describe(point) {
   const match = point.match, distance = nippleDistance(point.k, point.u, point.v);
-  return 'in ' + viewName(1 - point.k) + ' somewhere on a line of ' + lengthOf(match.curve).toFixed(0) + ' mm' +
+  return 'in ' + viewName(1 - point.k) + ' somewhere on a line of ' + match.length.toFixed(0) + ' mm' +
       (widthOf(match) > 0
            ? ', about ' + widthOf(match).toFixed(0) + ' mm to either side (90 %' + (data.band_without ? ', not counting ' + data.band_without : '') + ')'
            : '; how far to either side is not known for this run') +

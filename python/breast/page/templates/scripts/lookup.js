@@ -5,8 +5,8 @@ class Lookup {
     this.status = bytes(packed.status);
     this.depth = array(Uint16Array, packed.depth);
     this.curve = array(Int16Array, packed.curve);
+    this.length = array(Uint16Array, packed.length);
     this.deviation = array(Uint16Array, packed.deviation);
-    this.across = array(Int8Array, packed.across);
     this.imaged = array(Int16Array, packed.imaged);
     // Nodes in air have no place in the arrays: place[node] counts those in tissue before it.
     this.place = new Uint32Array(this.status.length);
@@ -36,13 +36,12 @@ class Lookup {
     const used = corners.every(c => this.status[c.node]) ? corners : [{node: nearest.node, weight: 1}];
     const mean = (values, width, k, c, unit) => unit * used.reduce(
         (sum, corner) => sum + corner.weight * values[(this.place[corner.node] * this.samples + k) * width + c], 0);
-    const found = {kind, curve: [], deviation: [], across: [], column: [],
-                   depth: used.reduce((sum, c) => sum + c.weight * this.depth[this.place[c.node]] / 100, 0)};
+    const ofNode = values => used.reduce((sum, c) => sum + c.weight * values[this.place[c.node]] / 100, 0);
+    const found = {kind, curve: [], deviation: [], column: [], depth: ofNode(this.depth), length: ofNode(this.length)};
     for (let k = 0; k < this.samples; ++k) {
       found.curve.push([0, 1].map(c => mean(this.curve, 2, k, c, 0.01)));
-      found.across.push([0, 1].map(c => mean(this.across, 2, k, c, 1 / 127)));
-      found.column.push([0, 1, 2].map(c => mean(this.imaged, 3, k, c, 0.01) + data.body.middle[c]));
       found.deviation.push(mean(this.deviation, 1, k, 0, 0.01));
+      found.column.push([0, 1, 2].map(c => mean(this.imaged, 3, k, c, 0.01) + data.body.middle[c]));
     }
     return found;
   }

@@ -6,17 +6,31 @@ function trace(view, points) {
     i ? view.pen.lineTo(x, y) : view.pen.moveTo(x, y);
   });
 }
+// Unit vector across the piece of a line between its samples i and i + 1.
+function acrossPiece(match, i) {
+  const [x, y] = [0, 1].map(c => match.curve[i + 1][c] - match.curve[i][c]), length = Math.hypot(x, y);
+  return length > 1e-6 ? [-y / length, x / length] : [1, 0];
+}
+// As MatchedLine.band of page/lines.py: beside each piece of the line, and round the outside of its corners.
 function drawBand(view, match, factor, alpha) {
-  const edge = sign => match.curve.map((p, k) => view.toScreen(...[0, 1].map(
-      c => p[c] + sign * factor * match.deviation[k] * match.across[k][c])));
-  const low = edge(-1), high = edge(1);
-  // Pieces that all turn the same way add up, also where the line bends sharply.
+  const edge = (k, normal) => view.toScreen(...[0, 1].map(c => match.curve[k][c] + factor * match.deviation[k] * normal[c]));
   view.pen.beginPath();
-  for (let k = 1; k < low.length; ++k) {
-    const piece = [low[k - 1], low[k], high[k], high[k - 1]], [x, y] = [0, 1].map(c => piece.reduce((sum, p) => sum + p[c] / 4, 0));
+  // Pieces that all turn the same way add up, also where the line bends sharply.
+  const add = piece => {
+    const [x, y] = [0, 1].map(c => piece.reduce((sum, p) => sum + p[c] / piece.length, 0));
     const direction = p => Math.atan2(p[1] - y, p[0] - x);
     piece.sort((p, q) => direction(p) - direction(q)).forEach((p, i) => i ? view.pen.lineTo(...p) : view.pen.moveTo(...p));
     view.pen.closePath();
+  };
+  for (let k = 0; k + 1 < match.curve.length; ++k) {
+    const normal = acrossPiece(match, k), other = normal.map(c => -c);
+    add([edge(k, normal), edge(k + 1, normal), edge(k + 1, other), edge(k, other)]);
+    if (!k) continue;
+    const before = acrossPiece(match, k - 1);
+    const turn = Math.atan2(before[0] * normal[1] - before[1] * normal[0], before[0] * normal[0] + before[1] * normal[1]);
+    const steps = 1 + Math.floor(Math.abs(turn) * 18 / Math.PI), start = Math.atan2(before[1], before[0]) + (turn > 0 ? Math.PI : 0);
+    const about = Array.from({length: steps + 1}, (_, i) => start + turn * i / steps).map(a => edge(k, [Math.cos(a), Math.sin(a)]));
+    for (let i = 1; i < about.length; ++i) add([view.toScreen(...match.curve[k]), about[i - 1], about[i]]);
   }
   view.pen.globalAlpha = alpha;
   view.pen.fill();
