@@ -114,7 +114,10 @@ SearchResult search_minimum(NewtonSystem& system, const NewtonDirection& directi
 
 SearchResult line_search(NewtonSystem& system, const NewtonDirection& direction,
                          const LineSearchRule& rule) {
-  if (rule.to_minimum) return search_minimum(system, direction, rule);
+  if (rule.to_minimum) {
+    SearchResult lowest = search_minimum(system, direction, rule);
+    if (lowest.trial) return lowest;
+  }
   SearchResult result;
   // Where the tangent is indefinite the slope is anything but linear.
   const bool by_slope = rule.kinks && !rule.downhill_suffices;

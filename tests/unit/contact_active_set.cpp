@@ -325,7 +325,7 @@ TEST(CompressionPath, EndsUnfinishedWhereTheEdgeCarriesTooMuch) {
   State state = body.start();
   const PathResult whole = close(plates, whole_way, state, target);
   ASSERT_TRUE(whole.reached());
-  EXPECT_GE(most_on_edge(whole.points.back()), 0);
+  EXPECT_GE(largest_edge_part(whole.points.back()), 0);
   plates = plates_at(-20, 20, 15);
   ActiveSet left = body.active_set();
   state = body.start();

@@ -228,7 +228,7 @@ PathEnd Path::close_plates() {
       }
     }
     const CompressionTarget* target = may_end(*reached) ? passed(reached->point) : nullptr;
-    if (target != nullptr && most_on_edge(reached->point) <= options_.most_on_edge)
+    if (target != nullptr && largest_edge_part(reached->point) <= options_.most_on_edge)
       return end_at(*target, std::move(*reached));
     keep(*reached);
     trail_.advance(std::move(*reached));

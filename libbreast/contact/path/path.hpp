@@ -42,7 +42,7 @@ struct PathOptions {
   /// Returns the weight (N, along the beam, positive towards the detector) that no hand carries at a
   /// part of the way. If it is given, the plates' mid-plane follows the breast (mid_plane_move).
   std::function<double(double)> weight_N;
-  /// A path that passes a target ends there, unfinished, if more than this part of a plate's force lies
+  /// A path that passes a target other than a thickness ends there, unfinished, if more than this part of a plate's force lies
   /// on its rounded edge: the plates are then placed elsewhere, and the exact end would cost as much as
   /// the way to it.
   double most_on_edge = std::numeric_limits<double>::infinity();

@@ -19,7 +19,7 @@ std::vector<CompressionTarget> all_of(const CompressionTarget& target) {
 
 }  // namespace
 
-double most_on_edge(const PathPoint& point) {
+double largest_edge_part(const PathPoint& point) {
   const auto part = [](double edge, double force) { return force > 0 ? edge / force : 0; };
   return std::max(part(point.paddle_edge_N, point.paddle_N),
                   part(point.detector_edge_N, point.detector_N));

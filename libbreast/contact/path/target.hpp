@@ -30,7 +30,7 @@ struct PathPoint {
 };
 
 /// The larger of the parts of a plate's force that lie on its rounded edge.
-double most_on_edge(const PathPoint& point);
+double largest_edge_part(const PathPoint& point);
 /// "thickness", "paddle force", "mean pressure" or "contact area".
 const char* target_name(TargetKind kind);
 /// The quantity of a target at a point of the path, in the target's unit.

@@ -143,7 +143,8 @@ bool SurfaceContact::System::follow_bounds(double residual) {
   followed_lag_ = lag_;
   bounds.approach_from(owner_.memory_.bounds, following_part_);
   // A node deep in the rounded edge may turn its normal back and forth, and the bounds with it.
-  const bool alternates = following_part_ < 1;
+  // An accurate solution has the directions at its own positions.
+  const bool alternates = following_part_ < 1 && on_the_way;
   change({owner_.friction_.get()}, [&] { owner_.adopt(std::move(bounds), state_, alternates); });
   return true;
 }
@@ -162,9 +163,15 @@ NewtonDirection SurfaceContact::System::direction(const Balance& now) {
   const double depth = now.residual < near_residual ? std::numeric_limits<double>::infinity()
                                                     : turning_depth * depth_;
   const Constraints held = problem_.constraints_at(state_.x);
-  owner_.pressure_->set_turning_depth(depth);
-  if (!assemble()) return {NewtonStop::folded, describe(NewtonStop::folded)};
-  simplified_ = !factorise(held, false).ok;
+  simplified_ = skipped_ > 0;
+  if (simplified_) {
+    --skipped_;
+  } else {
+    owner_.pressure_->set_turning_depth(depth);
+    if (!assemble()) return {NewtonStop::folded, describe(NewtonStop::folded)};
+    simplified_ = !factorise(held, false).ok;
+    if (simplified_) skipped_ = without_rotation;
+  }
   if (simplified_) {
     ++simplifications_;
     owner_.pressure_->set_turning_depth(0);
@@ -260,11 +267,12 @@ bool SurfaceContact::begin(State& state, double tolerance, double allowed, Conta
   const ContactMemory memory = memory_;
   const double guessed = pressure_->deepest(state.x);
   std::vector<double> penalties{memory.penalty};
-  if (guessed > memory.deepest) penalties.push_back(memory.penalty * memory.deepest / guessed);
-  if (penalties.back() > options_.stiffness) penalties.push_back(options_.stiffness);
+  const double softer = memory.penalty * memory.deepest / std::max(guessed, memory.deepest);
+  for (const double next : {softer, options_.stiffness})
+    if (next >= options_.stiffness && next < penalties.back()) penalties.push_back(next);
   for (const double penalty : penalties) {
     memory_ = memory;
-    memory_.penalty = std::max(penalty, options_.stiffness);
+    memory_.penalty = penalty;
     state = given;
     if (equilibrate(state, tolerance, allowed, step)) return true;
     if (fail_fast_) return false;

@@ -49,8 +49,8 @@ Mask wider(const Mask& mask, double reach) {
 
 constexpr double by_failed = 10;  // mm: over these, failed suppression ends
 
-/// Nearer to failed suppression than this share of the tissue below the skin, no level of suppressed fat
-/// is left to be found.
+/// If more than this share of the tissue below the skin lies near failed suppression, no level of
+/// suppressed fat is left to be found.
 constexpr double most_near_failed = 0.8;
 
 /// Log level of suppressed fat on the working grid. Near fat that is not suppressed (`fat.failed`, may be
@@ -340,6 +340,7 @@ SuppressedFat find_suppressed_wall(Work& work, Progress& progress, Timer& timer)
   constexpr int rounds = 3;
   const Volume<float> scan = work.scan;
   SuppressedFat fat;
+  work.wall = {};
   for (int round = 0; round < rounds; ++round) {
     const Volume<float> relative = find_level(fat, work, scan);
     work.scan = shown(relative, work.skin_distance, fat.failed,
@@ -419,7 +420,7 @@ std::string refusal_of(const SuppressedFat& fat) {
                    std::lround(100 * fat.near_failed), " % of the tissue below the skin (at most ",
                    std::lround(100 * most_near_failed),
                    " %), so that the brightness of suppressed fat is unknown");
-  // At 2, walls of known anatomies are as right as without failure; less was not tried.
+  // At 2, walls of known anatomies are as right as without failure, and at 1.4 none is accepted.
   constexpr double least_beside_failed = 1.7;
   if (fat.failed_ml > 0 && fat.muscle.median < least_beside_failed)
     return message("fat is not suppressed in ", std::lround(fat.failed_ml),
