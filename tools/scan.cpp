@@ -14,7 +14,8 @@ int main(int argc, char** argv) {
   tool.describe(
       "Reads a scan with all checks of the readers and writes its volume: a DICOM folder becomes one file without names, "
       "dates or other texts of the patient. The values are those of the scan.");
-  tool.input(scan, "MR", "scan: .nrrd, .nii, .nii.gz, .mha, a DICOM folder, or a DICOM file with all slices");
+  tool.input(scan, "MR",
+             "scan: .nrrd, .nii, .nii.gz, .mha, a DICOM folder, or a DICOM file with all slices");
   tool.output(out, "OUT.nrrd", "the volume", {".nii", ".nii.gz", ".mha"});
   tool.describe(
       std::string(

@@ -45,7 +45,8 @@ void declare(Tool& tool, Choices& c) {
       "labelled only where the chest wall was searched for, so that its border on the side of the "
       "rib cage is arbitrary.");
   tool.cite("Pathmanathan et al. 2008, section II-A; Li et al., IEEE TPAMI 28:119 (2006)");
-  tool.input(c.scan, "MR", "scan: .nrrd, .nii, .nii.gz, .mha, a DICOM folder, or a DICOM file with all slices");
+  tool.input(c.scan, "MR",
+             "scan: .nrrd, .nii, .nii.gz, .mha, a DICOM folder, or a DICOM file with all slices");
   tool.output(
       c.labels, "LABELS.vtkhdf",
       "tissue labels of the chosen breast; for other programs, a .nrrd, .nii, .nii.gz or .mha file "

@@ -196,7 +196,8 @@ std::string outcome(const fs::path& folder, const ShortVolume& expected, const F
     EXPECT_LT((read.grid.direction - expected.grid.direction).cwiseAbs().maxCoeff(), 2e-3);
     EXPECT_TRUE(std::equal(read.voxels.begin(), read.voxels.end(), expected.voxels.begin(),
                            expected.voxels.end()));
-    for (const char* kind : {"presentation state", "report", "localiser", "copy of another image"}) {
+    for (const char* kind :
+         {"presentation state", "report", "localiser", "copy of another image"}) {
       const bool said = std::any_of(
           source.remarks.begin(), source.remarks.end(),
           [&](const std::string& text) { return text.find(kind) != std::string::npos; });
