@@ -85,6 +85,13 @@ std::vector<BandLine> stretches_of(const MatchedCurve& curve, const Band& band) 
   return lines;
 }
 
+BandLine drawn_points(const MatchedCurve& curve, const Band& band) {
+  BandLine points;
+  for (const BandLine& line : stretches_of(curve, band))
+    points.insert(points.end(), line.begin(), line.end());
+  return points;
+}
+
 std::vector<std::vector<Vec2>> band_edges(const BandLine& line, double width) {
   constexpr double deep = 0.8;  // of the width: what is nearer to the curve is no edge
   const std::vector<Vec2> across = normals(line);

@@ -13,6 +13,8 @@ namespace breast {
 using BandLine = std::vector<BandPoint>;
 /// The points of each stretch of a curve, with deviations that are smoothed along it, to draw.
 std::vector<BandLine> stretches_of(const MatchedCurve& curve, const Band& band);
+/// The same, one after the other: a point for each of the curve.
+BandLine drawn_points(const MatchedCurve& curve, const Band& band);
 
 /// Lines along both edges of the band of `width` standard deviations, mm in the second image; its ends are
 /// open. Every place of an edge is width · deviation from the curve: about the outside of a corner an edge

@@ -5,6 +5,7 @@
 #include <atomic>
 
 #include "core/error.hpp"
+#include "matching/band_edges.hpp"
 
 namespace breast {
 
@@ -23,7 +24,7 @@ void store(const MatchedCurve& curve, const BandModel* model, std::size_t node,
   const auto& points = curve.points;
   lookup.depth[node] = float(points.back().depth);
   lookup.length[node] = float(curve.length);
-  const Band band = model != nullptr ? model->band(curve) : Band{};
+  const BandLine band = model != nullptr ? drawn_points(curve, model->band(curve)) : BandLine{};
   std::size_t after = 1;  // the first point at or beyond the sample
   for (int k = 0; k < lookup.samples; ++k) {
     const double depth = points.back().depth * k / (lookup.samples - 1);
@@ -36,8 +37,7 @@ void store(const MatchedCurve& curve, const BandModel* model, std::size_t node,
     for (int c = 0; c < 2; ++c) lookup.curve[2 * at + std::size_t(c)] = float(uv[c]);
     for (int c = 0; c < 3; ++c) lookup.imaged[3 * at + std::size_t(c)] = float(imaged[c]);
     if (model == nullptr) continue;
-    lookup.deviation[at] =
-        float((1 - f) * band.points[after - 1].deviation + f * band.points[after].deviation);
+    lookup.deviation[at] = float((1 - f) * band[after - 1].deviation + f * band[after].deviation);
   }
 }
 

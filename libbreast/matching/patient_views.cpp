@@ -108,12 +108,14 @@ Table curve_points_table(const Matcher& matcher, const std::vector<MatchResult>&
   if (views != nullptr) table.columns.insert(table.columns.end(), {view + "_x_px", view + "_y_px"});
   for (std::size_t q = 0; q < results.size(); ++q) {
     const auto& points = results[q].curve.points;
+    const BandLine band =
+        results[q].band ? drawn_points(results[q].curve, *results[q].band) : BandLine{};
     for (std::size_t i = 0; i < points.size(); ++i) {
       const ColumnPoint& p = points[i];
-      const BandPoint* band = results[q].band ? &results[q].band->points[i] : nullptr;
+
       table.rows.push_back({std::to_string(q), std::to_string(p.stretch), format_fixed(p.depth, 4),
                             format_fixed(p.to_uv.x(), 4), format_fixed(p.to_uv.y(), 4),
-                            band ? format_fixed(band->deviation, 4) : "-"});
+                            band.empty() ? "-" : format_fixed(band[i].deviation, 4)});
       if (views == nullptr) continue;
       const Vec2 pixel = views->to().pixel(p.to_uv);
       for (int k = 0; k < 2; ++k) table.rows.back().push_back(format_fixed(pixel[k], 3));
