@@ -466,7 +466,7 @@ void charge(const CompressionResult& other, CompressionResult& found) {
   for (const auto& [phase, seconds] : other.timer.seconds()) found.timer.add(phase, seconds);
 }
 
-/// The result between plates that are placed anew, or nothing where they would miss the breast.
+/// The compression with the plates at another place; nothing if they would miss the breast there.
 std::optional<CompressionResult> placed_anew(const HexMesh& mesh, const CompressionOptions& options,
                                              const MechanicsOptions& mechanics,
                                              Progress& progress) {

@@ -96,7 +96,7 @@ struct PlateOptions {
   /// Angle by which the edge is turned about the beam, with its upper end backwards; if absent,
   /// the edge is inclined so that an oblique image shows the muscle from above.
   std::optional<double> lean_deg = 0;
-  /// Angle by which the patient bends forwards; if absent, wall_bend_deg.
+  /// Angle by which the patient bends forwards; if absent, the plates follow the wall (wall_bend_deg).
   std::optional<double> bend_deg = 0;
   double edge_radius = 15;
   double tilt_deg = 0;  ///< of the paddle about the lateral axis; positive narrows the gap

@@ -112,7 +112,6 @@ Table curve_points_table(const Matcher& matcher, const std::vector<MatchResult>&
         results[q].band ? drawn_points(results[q].curve, *results[q].band) : BandLine{};
     for (std::size_t i = 0; i < points.size(); ++i) {
       const ColumnPoint& p = points[i];
-
       table.rows.push_back({std::to_string(q), std::to_string(p.stretch), format_fixed(p.depth, 4),
                             format_fixed(p.to_uv.x(), 4), format_fixed(p.to_uv.y(), 4),
                             band.empty() ? "-" : format_fixed(band[i].deviation, 4)});

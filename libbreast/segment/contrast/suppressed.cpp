@@ -47,7 +47,7 @@ Mask wider(const Mask& mask, double reach) {
   return out;
 }
 
-constexpr double by_failed = 10;  // mm: over these, failed suppression ends
+constexpr double by_failed = 10;  // mm: within this distance, suppression recovers
 
 /// If more than this share of the tissue below the skin lies near failed suppression, no level of
 /// suppressed fat is left to be found.
@@ -321,8 +321,8 @@ Volume<float> find_level(SuppressedFat& fat, const Work& work, const Volume<floa
   const auto once = [&] {
     fat.log_level = level_of(work, scan, fat);
     Volume<float> relative = relative_to(fat.log_level, scan);
-    // Until a wall is known, the muscle behind it is taken for little brighter than fat, since more
-    // would hide it, and skin says how bright water is.
+    // Until a wall is known, muscle is assumed to be only a little brighter than fat, because a larger
+    // value would hide it, and the brightness of tissue that holds water is measured on the skin.
     const double water =
         wall_known ? water_behind(work, relative) : brightness_of_skin(work, relative);
     if (wall_known) fat.water = water;
