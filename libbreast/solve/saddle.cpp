@@ -85,7 +85,8 @@ Factorisation SaddleSolver::factorise(const SaddleMatrix& matrix, const Constrai
     shift = shift > 0 ? shift * shift_growth : std::max(first_shift, last_shift_ / shift_growth);
     if (!(shift <= largest_shift)) break;
   }
-  last_shift_ = result.shift;
+  // The next tangent that is not definite is likely to need a similar shift, even if definite ones lie between.
+  if (result.ok && shift > 0) last_shift_ = shift;
   definite_ = result.ok && result.shift == 0;
   return result;
 }

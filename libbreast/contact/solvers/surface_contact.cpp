@@ -20,7 +20,7 @@ constexpr int most_stiffenings = 24;
 constexpr double between_tolerance = 1e-3;
 /// Below this residual the tangent includes the rotation of all forces; above it, only of points up
 /// to the allowed depth times this factor.
-constexpr double near_residual = 0.03, turning_depth = 1.2;
+constexpr double near_residual = 0.3, turning_depth = 1.2;
 /// Number of times that points are chosen anew for an accurate solution.
 constexpr int most_choices = 4;
 /// Relative difference that may remain between the friction bounds and the normal forces of a
@@ -34,7 +34,7 @@ constexpr int most_bounds = 12;
 constexpr double lag_kept = 0.7;
 /// After this number of iterations whose residual is not below this fraction of the best, steps go to
 /// the minimum of the energy.
-constexpr int patience = 6;
+constexpr int patience = 2;
 constexpr double improvement = 0.9;
 /// Number of iterations that leave out the rotation of the forces after one whose tangent was indefinite
 /// with it.
