@@ -186,8 +186,10 @@ def _add_axes(panel: Panel, image: Mammogram, hanging: _Hanging, rings: Sequence
         y = panel.to_pixel(hanging(np.array([0, v])))[1]
         panel.line([(edge, y), (edge + 6 * outward, y)], thin)
         panel.text((edge + 10 * outward, y), f"{v:.0f}", SMALL, align=align)
-    panel.text((0.5 * (low[0] + high[0]), low[1] - 36), "u (mm) from the posterior edge", SMALL, align="center")
-    panel.text((edge + 10 * outward, low[1] - 36), "v (mm)", SMALL, align=align)
+    words, middle = "u (mm) from the posterior edge", 0.5 * (low[0] + high[0])
+    panel.text((middle, low[1] - 36), words, SMALL, align="center")
+    beside = outward * max(abs(edge - middle), 0.27 * SMALL * len(words))  # a narrow image's words reach beyond it
+    panel.text((middle + beside + 10 * outward, low[1] - 36), "v (mm)", SMALL, align=align)
     if image.plate_edge_mm > 1:  # where the image begins at the plates, they need no mark
         x = panel.to_pixel(hanging(np.array([image.plate_edge_mm, 0])))[0]
         panel.line([(x, low[1]), (x, high[1])], Stroke((0.7, 0.7, 0.7), 1, (3, 6)))
