@@ -20,6 +20,8 @@ struct Images {
   Mask seen;                ///< as voxels_with_data(); elsewhere the others are continued
   double noise = 0;         ///< as disturbing_noise() of `tissue`
 };
+/// Sets `noise` from `tissue`. Where it is not disturbing but speckles, `tissue` loses its speckle.
+void measure_noise(Images& images);
 /// The images of a scan in patient order: water and fat of a Dixon scan become their sum.
 Images images_of(const Volume<float>& scan, const SegmentOptions& options);
 /// What shows tissue, without disturbing noise, on the working grid.
