@@ -36,7 +36,7 @@ Mask seen_from(const Grid& scanned, const Mask& seen, const Grid& grid) {
 
 void measure_noise(Images& images) {
   images.noise = disturbing_noise(images.tissue);
-  if (!(images.noise > 0) && has_speckle(images.tissue)) remove_speckle(images.tissue);
+  images.speckled = has_speckle(images.tissue);
 }
 
 Images images_of(const Volume<float>& scan, const SegmentOptions& options) {

@@ -223,7 +223,7 @@ Work on_scan_grid(const Work& coarse, const Images& images, Side side) {
   Work fine;
   const Box box = side_box(coarse, images.tissue.grid, side);
   fine.scan = cropped(images.tissue, box);
-  if (images.noise > 0) remove_speckle(fine.scan);
+  if (images.speckled) remove_speckle(fine.scan);
   if (!images.fat_share.voxels.empty()) fine.fat_share = cropped(images.fat_share, box);
   if (!images.seen.voxels.empty()) fine.seen = cropped(images.seen, box);
   const Grid& grid = fine.scan.grid;
