@@ -80,13 +80,13 @@ void declare(Tool& tool, Choices& c) {
               "compares both");
   tool.choice(
       c.contrast, "--contrast", {"auto", "fat-bright", "fat-suppressed", "dixon"},
-      "which tissue is bright. auto: fat, or water and fat with --fat, or with --chest-wall "
-      "suppressed fat, too; a scan in which fat is not the bright tissue (fat suppression, T2, "
-      "subtraction, half of a Dixon scan) is otherwise refused, on the evidence of the skin, fat, "
-      "muscle, subcutaneous tissue and chest wall; fat-bright: the user vouches that fat is "
-      "bright, and contrary evidence is only a warning; fat-suppressed: the user says that fat is "
-      "suppressed, and the scan is refused where muscle is too little brighter than fat to show "
-      "the chest wall; dixon: MR is the water image, --fat the fat image");
+      "which tissue is bright. auto: fat, or water and fat with --fat; a prone scan in which, by "
+      "the evidence of the skin, fat, muscle, subcutaneous tissue and chest wall, it is not (fat "
+      "suppression, T2, subtraction, half of a Dixon scan) is read as one with suppressed fat if "
+      "muscle is bright enough beside it to show the chest wall, and otherwise refused with the "
+      "numbers; fat-bright: the user vouches that fat is bright, and contrary evidence is only a "
+      "warning; fat-suppressed: the user says that fat is suppressed; dixon: MR is the water "
+      "image, --fat the fat image");
   tool.input_file(c.fat, "--fat", "FILE",
                   "fat image of the Dixon scan whose water image is MR: body and chest wall are "
                   "found on their sum, gland by the share of fat; regions in which the scanner "

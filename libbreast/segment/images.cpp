@@ -34,6 +34,11 @@ Mask seen_from(const Grid& scanned, const Mask& seen, const Grid& grid) {
 
 }  // namespace
 
+void measure_noise(Images& images) {
+  images.noise = disturbing_noise(images.tissue);
+  images.speckled = has_speckle(images.tissue);
+}
+
 Images images_of(const Volume<float>& scan, const SegmentOptions& options) {
   Images images;
   images.tissue = in_patient_order(scan);
@@ -42,7 +47,7 @@ Images images_of(const Volume<float>& scan, const SegmentOptions& options) {
   if (!options.fat) {
     if (options.contrast == Contrast::dixon)
       throw input_error("a Dixon scan needs its fat image beside its water image");
-    images.noise = disturbing_noise(images.tissue);
+    measure_noise(images);
     return images;
   }
   Volume<float> fat = in_patient_order(*options.fat);

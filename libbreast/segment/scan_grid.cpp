@@ -223,13 +223,14 @@ Work on_scan_grid(const Work& coarse, const Images& images, Side side) {
   Work fine;
   const Box box = side_box(coarse, images.tissue.grid, side);
   fine.scan = cropped(images.tissue, box);
+  if (images.speckled) remove_speckle(fine.scan);
   if (!images.fat_share.voxels.empty()) fine.fat_share = cropped(images.fat_share, box);
   if (!images.seen.voxels.empty()) fine.seen = cropped(images.seen, box);
   const Grid& grid = fine.scan.grid;
   const Grid& working = coarse.scan.grid;
   fine.body = coarse.body;
   fine.body.mask = images.outline.voxels.empty()
-                       ? fine_body(coarse, without_noise(fine.scan, images.noise))
+                       ? fine_body(coarse, fine.scan)
                        : outlined_body(coarse, cropped(images.outline, box));
   fine.skin_distance = signed_distance(fine.body.mask);
   if (!images.outline.voxels.empty()) fine.own_distance = resampled(coarse.skin_distance, grid);

@@ -261,13 +261,12 @@ MisleadingGland misleading_gland(const Work& work) {
   return gland;
 }
 
-/// What the user says of the wall, and muscle that lies on it.
-void complete_wall(Work& work, const SegmentOptions& options, Progress& progress) {
+/// What the user says of the wall, and muscle that lies on it, in a scan with bright or `suppressed` fat.
+void complete_wall(Work& work, bool suppressed, const SegmentOptions& options, Progress& progress) {
   progress.update("chest wall", 0.5, "muscle on it");
   if (!corrected_by_hand(options)) {
     refine_bias(work);
     // As suppressed fat is shown, noise turns mixtures of it with skin into muscle.
-    const bool suppressed = options.contrast == Contrast::fat_suppressed;
     include_front_muscle(work.wall, work.ratio, suppressed ? &work.skin_distance : nullptr,
                          work.domain,
                          find_extent(work.wall, work.domain, work.torso, work.skin_distance,
@@ -293,7 +292,7 @@ void locate_wall(Work& work, Segmentation& result, const SegmentOptions& options
                  Progress& progress, Timer& timer) {
   find_wall(work, progress, timer);
   const Timer::Scope phase(timer, "bias");
-  complete_wall(work, options, progress);
+  complete_wall(work, false, options, progress);
   complete_bias(work, result, options);
 }
 
@@ -343,8 +342,8 @@ void take_second_scan(Work& work, Images& images, Segmentation& result,
                  .change = {}};
   images.outline = std::move(field.first);
   images.seen = {};
-  images.noise = disturbing_noise(field.second);
   images.tissue = std::move(field.second);
+  measure_noise(images);
   start_work(work, images, options);
   result.debris_ml = work.body.debris_ml;
   result.beside_ml = work.body.beside_ml;
@@ -387,7 +386,7 @@ std::string read_suppressed(Work& work, Images& images, Segmentation& result,
   result.muscle_over_fat = fat.muscle.median;
   result.muscle_over_fat_low = fat.muscle.low;
   result.contrast = contrast_below_skin(work);
-  complete_wall(work, options, progress);
+  complete_wall(work, true, options, progress);
   complete_bias(work, result, options);
   show_gland(work, scan, images, fat);
   result.unsuppressed_ml = fat.failed_ml;
@@ -418,9 +417,8 @@ std::string refusal_as_suppressed(Work& work, Images& images, Segmentation& resu
   }
 }
 
-/// Bias and wall of a scan that comes alone. One in which fat is not bright is read as one with
-/// suppressed fat only if the user says that it is, or gives the wall: muscle that is bright enough
-/// does not tell it from all else that may lie in front of the ribs.
+/// Bias and wall of a scan that comes alone. One that is refused as a scan with bright fat is read as one with
+/// suppressed fat, unless the user says what it is.
 void find_wall_alone(Work& work, Images& images, Segmentation& result,
                      const SegmentOptions& options, Progress& progress, Timer& timer) {
   if (options.contrast == Contrast::fat_suppressed) {
@@ -431,22 +429,17 @@ void find_wall_alone(Work& work, Images& images, Segmentation& result,
     if (!refusal.empty()) throw input_error(refusal);
     return;
   }
-  const bool may_be_suppressed_too = options.contrast == Contrast::automatic && !options.fat &&
-                                     options.posture == Posture::prone &&
-                                     corrected_by_hand(options);
-  if (!may_be_suppressed_too) {
-    const std::string refusal = find_contrast(work, result, options, progress, timer);
-    if (refusal.empty()) return;
-    if (options.contrast != Contrast::fat_bright)
-      throw input_error(options.fat ? "the sum of water and fat: " : "", refusal);
+  const bool suppressed_too =
+      options.contrast == Contrast::automatic && !options.fat && options.posture == Posture::prone;
+  const auto read = suppressed_too ? refusal_alone : find_contrast;
+  const std::string refusal = read(work, result, options, progress, timer);
+  if (refusal.empty()) return;
+  if (options.contrast == Contrast::fat_bright) {
     result.doubts.push_back("accepted as requested: " + refusal);
     return;
   }
-  Work unread = work;
-  const std::string refusal = refusal_alone(work, result, options, progress, timer);
-  if (refusal.empty()) return;
-  if (!may_be_suppressed(result.contrast)) throw input_error(refusal);
-  work = std::move(unread);
+  if (!suppressed_too || !may_be_suppressed(result.contrast))
+    throw input_error(options.fat ? "the sum of water and fat: " : "", refusal);
   const std::string suppressed =
       refusal_as_suppressed(work, images, result, options, progress, timer);
   if (!suppressed.empty())

@@ -19,7 +19,10 @@ struct Images {
   Volume<float> fat_share;  ///< of a Dixon scan: fat over water and fat; otherwise empty
   Mask seen;                ///< as voxels_with_data(); elsewhere the others are continued
   double noise = 0;         ///< as disturbing_noise() of `tissue`
+  bool speckled = false;    ///< as has_speckle() of `tissue`
 };
+/// Sets `noise` and `speckled` from `tissue`.
+void measure_noise(Images& images);
 /// The images of a scan in patient order: water and fat of a Dixon scan become their sum.
 Images images_of(const Volume<float>& scan, const SegmentOptions& options);
 /// What shows tissue, without disturbing noise, on the working grid.
@@ -56,7 +59,7 @@ struct Work {
 Volume<float> on_working_grid(const Volume<float>& scan);
 
 /// The chosen side of the original scan with everything found so far, for the final labels: if the
-/// working grid was coarser, the border of the body is determined again on the finer voxels.
+/// working grid was coarser, the border of the body is determined again on the finer voxels. Speckle is taken out.
 Work on_scan_grid(const Work& coarse, const Images& images, Side side);
 
 /// Brightness and ratio from the scan, and a bias on any grid.

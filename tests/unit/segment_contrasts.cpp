@@ -205,9 +205,21 @@ TEST(Suppressed, WhatIsNoneOfItIsRefused) {
     EXPECT_NE(refusal(*other, as_suppressed()), "accepted");
 }
 
-TEST(Suppressed, UnlessSaidItIsRefusedWithTheOptionThatReadsIt) {
-  const std::string reason = refusal(suppressed_beside_bright_muscle());
-  EXPECT_NE(reason.find("--contrast fat-suppressed"), std::string::npos) << reason;
+TEST(Suppressed, IsFoundWithoutBeingSaid) {
+  const Volume<float> scan = suppressed_beside_bright_muscle();
+  const Segmentation found = run(scan), said = run(scan, as_suppressed());
+  EXPECT_EQ(found.kind, Contrast::fat_suppressed);
+  EXPECT_EQ(found.labels.tissue, said.labels.tissue);
+  EXPECT_TRUE(std::any_of(found.doubts.begin(), found.doubts.end(), [](const std::string& doubt) {
+    return doubt.find("the chest wall was found in suppressed fat") == 0;
+  }));
+}
+
+TEST(Suppressed, FoundOrSaidItIsRefusedByTheSameNumber) {
+  const std::string reason = refusal(patient().suppressed);
+  for (const char* words : {"fat is saturated", "; as a scan with suppressed fat: muscle is ",
+                            "(at least 1.2 needed", "--chest-wall", "--also"})
+    EXPECT_NE(reason.find(words), std::string::npos) << reason;
 }
 
 TEST(Suppressed, AGivenWallIsTheWayOut) {

@@ -190,9 +190,8 @@ std::string refusal_of(const FatContrast& contrast) {
       std::lround(contrast.sternal_thickness),
       " mm behind the sternum's skin (below 22): evidence ", format_fixed(evidence, 1),
       ", at most ", most_evidence,
-      " accepted. Give the T1 series without fat saturation, as MR or beside this one as --also, "
-      "--contrast fat-suppressed to read this one where muscle shows the chest wall, or --contrast "
-      "fat-bright if fat is bright");
+      " accepted. Give the T1 series without fat saturation, as MR or beside this one as --also, or "
+      "--contrast fat-bright if fat is bright");
 }
 
 std::string refusal_of_half(const FatContrast& contrast) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
 #include "core/statistics/percentile.hpp"
 #include "segment/grid/filters.hpp"
@@ -35,16 +36,46 @@ Volume<float> without_noise(const Volume<float>& scan, double noise) {
   return signal;
 }
 
-double disturbing_noise(const Volume<float>& scan) {
+namespace {
+
+/// Standard deviation of the noise, and what it is of bright tissue.
+struct Noise {
+  double deviation = 0, share = 0;
+};
+
+Noise noise_of(const Volume<float>& scan) {
   constexpr double rayleigh = 2.146;  // its 90th percentile over the standard deviation
-  constexpr double least = 0.06, hidden = 2.5, share = 0.25;
-  const double air = corner_air_level(scan), noise = air / rayleigh;
+  const double air = corner_air_level(scan);
   std::vector<float> tissue = scan.voxels;
   std::erase_if(tissue, [&](float v) { return v < air; });
-  if (tissue.empty() || !(noise > least * percentile(std::move(tissue), 0.9))) return 0;
-  std::vector<float> body = without_noise(scan, noise).voxels;
-  std::erase_if(body, [&](float v) { return v < noise; });
-  return percentile(std::move(body), share, 0) < hidden * noise ? noise : 0;
+  if (tissue.empty()) return {};
+  const double bright = percentile(std::move(tissue), 0.9);
+  return {air / rayleigh, bright > 0 ? air / rayleigh / bright : 0};
+}
+
+}  // namespace
+
+bool has_speckle(const Volume<float>& scan) {
+  constexpr double least = 0.04;
+  return noise_of(scan).share > least;
+}
+
+void remove_speckle(Volume<float>& scan) {
+  constexpr int width = 3;
+  const auto& size = scan.grid.size;
+  for (int k = 0; k < size[2]; ++k) {
+    cv::Mat slice(size[1], size[0], CV_32F, &scan.at(0, 0, k));
+    cv::medianBlur(slice.clone(), slice, width);
+  }
+}
+
+double disturbing_noise(const Volume<float>& scan) {
+  constexpr double least = 0.06, hidden = 2.5, share = 0.25;
+  const Noise noise = noise_of(scan);
+  if (!(noise.share > least)) return 0;
+  std::vector<float> body = without_noise(scan, noise.deviation).voxels;
+  std::erase_if(body, [&](float v) { return v < noise.deviation; });
+  return percentile(std::move(body), share, 0) < hidden * noise.deviation ? noise.deviation : 0;
 }
 
 }  // namespace breast
