@@ -205,8 +205,8 @@ void declare(Tool& tool, Choices& c) {
                         "--contact-points", "--positioning", "--pull", "--edge-at", "--middle-at",
                         "--edge-radius", "--tilt", "--detector", "--friction"});
   tool.topic("solver", {"--plate-step", "--contact"});
-  tool.basic({"--view", "--angle", "--thickness", "--reduction", "--force", "--pressure", "--like",
-              "--image-edge", "--friction", "--materials", "--keep-unconverged"});
+  tool.basic({"--view", "--angle", "--thickness", "--reduction", "--force", "--like",
+              "--image-edge", "--friction", "--materials"});
   tool.check([&c] {
     parse_gravity(c.gravity);
     parse_detector(c.detector);

@@ -40,10 +40,8 @@ double plate_thickness(const Mammogram& image) {
   return at_rank(between.empty() ? all : between, 0.75, 1);
 }
 
-// How much brighter than the breast the pectoral muscle may be; what lies beyond is white.
-constexpr float muscle_room = 1.15f;
-
-// A few bright pixels (a tumour, a fold) must not darken the rest, nor must the muscle at the back of an oblique view.
+// White is the densest tissue of the breast itself, in both views, so that the same tissue looks alike in them; muscle, which fills the
+// whole column at the back of an oblique view, is then as white as that. A few bright pixels (a tumour, a fold) must not darken the rest.
 double bright_end(const Mammogram& image, const std::vector<float>& shown) {
   std::vector<float> breast, all;
   for (std::size_t i = 0; i < shown.size(); ++i) {
@@ -51,8 +49,7 @@ double bright_end(const Mammogram& image, const std::vector<float>& shown) {
     all.push_back(shown[i]);
     if (image.through_back[i] == 0) breast.push_back(shown[i]);
   }
-  const float end = at_rank(all, 0.998, 1);
-  return breast.empty() ? end : std::min(end, muscle_room * at_rank(breast, 0.998, 1));
+  return at_rank(breast.empty() ? all : breast, 0.998, 1);
 }
 
 /// Averages over the neighbours of pixels that have both known and unknown neighbours, so that the

@@ -213,6 +213,8 @@ def check_layout(page: Page, width: int) -> None:
                      " return b.top >= 0 && b.bottom <= innerHeight && b.height > 10; })()"),
           f"'research only' is seen after scrolling to the end at {width} px")
     page.to_pointing()
+    check(page.value("document.getElementById('band-legend').hidden === document.getElementById('show-band').closest('label').hidden"),
+          "the box for the band is there with the band")
     unnamed = page.value("[...document.querySelectorAll('button, canvas, input')].filter(e => !(e.getAttribute('aria-label') ||"
                          " e.textContent.trim() || (e.labels && e.labels.length))).map(e => e.id)")
     check(unnamed == [], f"every control has a name: {unnamed}")

@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The command `breast`: names for make and their links, what was asked for, and programs that cannot write."""
+import io
 import os
 import subprocess
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import small_run
+from breast.command import scan_run
 from breast.command.assumed import Series, series_of, side_of, tumour_beside, tumour_position
 from breast.command.commands import unknown_command
 from breast.command.make_name import name_for_make, plain_for_make, plain_name
@@ -146,6 +149,18 @@ class Requests(unittest.TestCase):
         self.assertEqual(unknown_command(here, "segmnt"), "'segmnt' is no command, tool or setting; did you mean 'segment'?")
         self.assertIn("'demo'", unknown_command(here, "dem"))
         self.assertIn("`breast help` lists them", unknown_command(here, "xyzzy"))
+
+    def test_it_is_said_whose_stages_follow(self):
+        """The stages of both sides have the same names."""
+        asked = (["make"], "runs/x", "")
+        for words, expected in (("scan", "left segments right segments left makes right makes"), ("scan --side left", "makes")):
+            said = []
+            with unittest.mock.patch.multiple(scan_run, asked_of_make=lambda *_: asked, make_run=lambda *_: said.append("makes") or 0,
+                                              run_child=lambda *_: said.append("segments") or 0, show_results=lambda *_: None,
+                                              print=lambda words, **_: said.append(words.split()[-2]), create=True), \
+                    unittest.mock.patch.object(scan_run.sys, "stdout", io.StringIO()):
+                self.assertEqual(scan_run.run_scan(SimpleNamespace(), parse_request("run", [*words.split(), "TUMOUR=none"])), 0)
+            self.assertEqual(" ".join(said), expected)
 
 
 class Assumed(unittest.TestCase):

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The commands and scripts of docs/python.md and of the tutorial run as they are written, on the demonstration."""
+"""The commands and scripts of docs/python.md and of the tutorial run as they are written, on the demonstration; links lead somewhere."""
 import os
 import re
 import subprocess
 import unittest
+from pathlib import Path
 
 import numpy as np
 
@@ -57,6 +58,25 @@ class Pages(unittest.TestCase):
         picture = matplotlib.image.imread(self.folder / "motion.png")
         self.assertGreater(picture.shape[1], 1000)
         self.assertGreater(np.std(picture[..., :3]), 0.05)  # not blank
+
+
+class Links(unittest.TestCase):
+    def test_links_lead_to_a_file_and_a_heading_and_pictures_have_words(self) -> None:
+        def headings(page: Path) -> set[str]:
+            titles = re.findall(r"^#+ (.*)$", page.read_text(encoding="utf-8"), re.M)
+            return {re.sub(r"[^\w\- ]", "", title.strip().lower()).replace(" ", "-") for title in titles}
+        found = 0
+        for page in [page for pattern in ("*.md", "docs/**/*.md", "pipelines/**/*.md") for page in small_run.source.glob(pattern)]:
+            text = re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.M | re.S)
+            for picture, words, to in re.findall(r"(!?)\[([^\]]*)\]\(([^)\s]+)\)", text):
+                with self.subTest(page=page.name, to=to):
+                    self.assertTrue(not picture or len(words.split()) > 3, "says what it shows")
+                    name, _, heading = to.partition("#")
+                    if not re.match("https?:", to):
+                        found += 1
+                        self.assertTrue((page.parent / name).exists())
+                        self.assertTrue(not heading or heading in headings(page.parent / name if name else page))
+        self.assertGreater(found, 100)
 
 
 if __name__ == "__main__":

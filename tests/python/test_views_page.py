@@ -250,8 +250,11 @@ class WhatIsSaid(unittest.TestCase):
         for offset, clock in (((0, 0, 20), "12 o'clock"), ((20, 5, 0), "3 o'clock"), ((-20, 5, 0), "9 o'clock"), ((0, 9, -20), "6 o'clock"),
                               ((11, 43, 14), "1 o'clock"), ((3, 40, 4), "behind the nipple"), ((-5, 0, 30), "12 o'clock")):
             self.assertEqual(facts.clock_position(np.array(offset, float)), clock)
-        self.assertEqual(facts.quadrant(np.array([20.0, 5, 5]), "left"), "upper outer quadrant")
-        self.assertEqual(facts.quadrant(np.array([20.0, 5, -5]), "right"), "lower inner quadrant")
+        for offset, side, words in (((20, 5, 9), "left", "upper outer quadrant"), ((20, 5, -9), "right", "lower inner quadrant"),
+                                    ((-20, 5, -1), "left", "between the inner quadrants"),
+                                    ((-20, 5, 1), "right", "between the outer quadrants"),
+                                    ((4, 0, 20), "left", "between the upper quadrants"), ((-4, 0, -20), "left", "between the lower quadrants")):
+            self.assertEqual(facts.quadrant(np.array(offset, float), side), words)
         self.assertEqual([facts.depth_third(at, 90) for at in (5, 45, 80, 95)], ["posterior", "middle", "anterior", "anterior"])
         self.assertEqual(facts.patient_position(np.array([-93.6, 31.4, -13.2])), "R 94, P 31, I 13 mm")
         self.assertEqual([facts.density_class(p)[0] for p in (2, 4.5, 7.6, 15.4, 15.5, 60)], ["a", "b", "c", "c", "d", "d"])
@@ -259,6 +262,19 @@ class WhatIsSaid(unittest.TestCase):
         sagittal = dataclasses.replace(sagittal, direction=np.array([[0.0, 0, -1], [1, 0, 0], [0, -1, 0]]), origin=np.array([100.0, 0, 0]))
         number, count, plane = facts.slice_of(sagittal, np.array([100 - 3 * sagittal.spacing[2], 0.0, 0]))
         self.assertEqual((number, count, plane, facts.first_slice(sagittal)), (4, sagittal.size[2], "sagittal", "leftmost"))
+
+    def test_what_lies_behind_the_model_is_said_as_it_is_drawn(self):
+        image, state = self.views.pairs[0]
+        for behind, said, unsaid in ((0, "behind the model, where nothing is known", "is drawn as fat"),
+                                     (40, "is drawn as fat", "where nothing is known"), (None, "One scale", "behind the model")):
+            images = {name: values.copy() for name, values in image.images.items()}
+            images["through_back"][:] = 0
+            images["through_back"][:, 0] = behind is not None
+            images["thickness"][:, 0] = behind or 0
+            views = dataclasses.replace(self.views, pairs=[(dataclasses.replace(image, images=images), state)], lookups=None)
+            words = words_of(views_page(self.run_folder, views))
+            self.assertIn(said, words)
+            self.assertNotIn(unsaid, words)
 
     def test_an_artificial_tumour_is_no_finding(self):
         self.assertIn("It is not a finding of this patient", words_of(self.page))

@@ -24,6 +24,10 @@ pass "the chain runs to the curve under -j2"
 run -q chain || fail "a second run does nothing"
 pass "a second run does nothing"
 
+for file in supine.vtkhdf curve.vtp cc.vti; do
+  grep -q 'tabulate.* page ' <<< "$(run -n -W "$case_dir/$file" page)" || fail "the page, which repeats every stage's warnings, comes after $file"
+done
+
 touch "$case_dir/mesh.vtkhdf"
 plan=$(run -n chain)
 grep -q "bin/backward" <<< "$plan" || fail "a newer mesh runs backward again"

@@ -3,6 +3,7 @@
 // kind, cut, or not finite is refused with a typed error.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <functional>
@@ -231,6 +232,20 @@ TEST(MammogramFile, ThickTissueBehindThePlatesIsNotLostInWhite) {
   EXPECT_GT(hung.grey[5], 1.3 * hung.grey[0]);
   image.thickness[4] = image.path[4] = 2;  // a ray through skin only, beside tissue of 40 mm
   EXPECT_LT(hang(image).grey[4], hung.grey[4]);
+}
+
+// White is the densest tissue of the breast, with muscle behind it as without.
+TEST(MammogramFile, MuscleAtTheBackDoesNotDarkenTheBreast) {
+  Mammogram image = some_mammogram(Side::left);
+  std::fill(image.thickness.begin(), image.thickness.end(), 50.0f);
+  for (int i = 0; i < 15; ++i) image.path[i] = i % 5 < 2 ? 25 : i % 5 < 4 ? 30 : 38;
+  const HungImage without = hang(image);
+  for (int i = 0; i < 15; i += 5) {
+    image.path[i] = 50;
+    image.through_back[i] = 1;
+  }
+  const HungImage with = hang(image);
+  for (int i = 0; i < 15; ++i) EXPECT_EQ(with.grey[i], i % 5 == 0 ? 65535 : without.grey[i]) << i;
 }
 
 // Rays that graze the skin stay in it for centimetres: they may show, but less than what is inside.

@@ -32,6 +32,11 @@ class _OneSide:
     def with_tumour(self, tumour: str) -> _OneSide:
         return _OneSide(self.installation, replace(self.request, settings={**self.request.settings, "TUMOUR": tumour}))
 
+    def announced(self) -> _OneSide:
+        """Says whose stages follow, since those of both sides have the same names."""
+        print(f"breast run: the {self.request.side} breast", flush=True)
+        return self
+
     def made(self, targets: Sequence[str]) -> int:
         return make_run([*self.make, f"-j{self.request.jobs}", *targets], self.run)
 
@@ -88,7 +93,7 @@ def _in_view(sides: dict[str, _OneSide]) -> tuple[dict[str, _OneSide], dict[str,
     show is neither, unless it is the only one."""
     shown, failed, absent = {}, {}, {}
     for name, side in sides.items():
-        code = run_child([*side.make, f"{side.run}/labels.vtkhdf"])
+        code = run_child([*side.announced().make, f"{side.run}/labels.vtkhdf"])
         reason = str(side.segmented().get("reason", ""))
         if code == 0:
             shown[name] = side
@@ -144,7 +149,7 @@ def run_scan(installation: Installation, r: PipelineRequest) -> int:
         return max(failed.values())
     done: dict[str, _OneSide] = {}
     for name, side in _assigned(sides, tumours).items():
-        code = side.made(targets)
+        code = (side.announced() if len(requests) > 1 else side).made(targets)
         if code >= 128:
             return code
         if code:

@@ -14,7 +14,7 @@ from .inputs import Inputs, need
 from .layout import RING, SMALL, Panel, Picture
 
 _UNKNOWN_GREY = 28000 / 65535  # as bright as muscle, which is what lies there
-_GAMMA, _THIN_EXPONENT, _MUSCLE_ROOM, _SOFT = 2, 0.2, 1.15, 2
+_GAMMA, _THIN_EXPONENT, _SOFT = 2, 0.2, 2
 _CURVE, _ARC = Stroke((0.1, 0.9, 0.4), 3), Stroke((0.35, 0.65, 1.0), 2.2, (3, 1.6))
 _AXIS = 76  # pixels beside the image
 _DIM: Colour = (0.85, 0.85, 0.85)
@@ -40,10 +40,8 @@ def hung(image: Mammogram) -> np.ndarray:
     level = _at_rank(between if len(between) else thickness[tissue], 0.75, 1)
     ratio = np.where(tissue, level / np.where(tissue, thickness, 1), 0)
     shown = np.where(tissue, path * np.where(ratio < 1, ratio, ratio**_THIN_EXPONENT), 0)
-    bright = _at_rank(shown[shown > 0], 0.998, 1)
     breast = shown[(shown > 0) & ~back]
-    if len(breast):
-        bright = min(bright, _MUSCLE_ROOM * _at_rank(breast, 0.998, 1))
+    bright = _at_rank(breast if len(breast) else shown[shown > 0], 0.998, 1)
     grey = np.clip(shown / bright, 0, 1) ** _GAMMA
     blank = back & ~tissue
     grey = _softened(np.where(blank, _UNKNOWN_GREY, grey), blank)

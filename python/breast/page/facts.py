@@ -36,14 +36,18 @@ def clock_position(offset: np.ndarray) -> str:
     """Of a place (3), LPS mm from the nipple, as somebody who faces the patient sees it: "2 o'clock", or "behind the nipple"."""
     if np.hypot(offset[0], offset[2]) < _BEHIND_NIPPLE_MM:
         return "behind the nipple"
-    hour = round(float(np.degrees(np.arctan2(offset[0], offset[2]))) / 30) % 12
-    return f"{hour or 12} o'clock"
+    return f"{_hour(offset) or 12} o'clock"
+
+
+def _hour(offset: np.ndarray) -> int:
+    return round(float(np.degrees(np.arctan2(offset[0], offset[2]))) / 30) % 12
 
 
 def quadrant(offset: np.ndarray, side: str) -> str:
-    """Of a place (3), LPS mm from the nipple: "upper outer", ..."""
-    outer = (offset[0] > 0) == (side == "left")
-    return f"{'upper' if offset[2] > 0 else 'lower'} {'outer' if outer else 'inner'} quadrant"
+    """Of a place (3), LPS mm from the nipple: "upper outer quadrant", ..., or "between the inner quadrants" at their border."""
+    up, across = "upper" if offset[2] > 0 else "lower", "outer" if (offset[0] > 0) == (side == "left") else "inner"
+    hour = _hour(offset)
+    return f"{up} {across} quadrant" if hour % 3 else f"between the {across if hour % 6 else up} quadrants"
 
 
 def depth_third(from_wall: float, nipple_from_wall: float) -> str:

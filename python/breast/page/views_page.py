@@ -123,7 +123,7 @@ def views_page(run: Path, views: Views) -> str:
                 bar_mm=BAR_MM, pair_mm=f"{pair:.1f}", tall_mm=f"{max([1, *(picture.size[1] for picture in (*pictures, *patients))]):.1f}",
                 row_mm=f"{max(sum(widths), pair):.1f}", animations=_animations(run), tables=_tables(run, views), data=_data(views),
                 scripts=scripts, tumour_words=_TUMOUR_WORDS[views.origin],
-                tumour_kind="artificial" if views.origin == "artificial" else "tumour", with_views=bool(views.pairs),
+                tumour_kind="artificial" if views.origin == "artificial" else "tumour", behind=_behind(views),
                 with_lines=any(picture.line for picture in pictures), with_band=any(picture.band for picture in pictures))
     if len(made) > LARGEST_PAGE:
         raise BreastError(f"the page would have {len(made) // 1000000} MB, at most {LARGEST_PAGE // 1000000} allowed; use a larger "
@@ -182,6 +182,14 @@ def _pictures_of_patient(views: Views, lines: list[MatchedLine | None]) -> list[
     more = sum(patient.deviation_mm**2 for patient in views.patients.values()) ** 0.5
     return [patient_picture(image, state, views.patients[image.view], line.with_more(more) if line else None)
             for (image, state), line in zip(views.pairs, lines) if image.view in views.patients]
+
+
+def _behind(views: Views) -> list[str]:
+    """How the images show what lies behind the model, if they do."""
+    behind = [image.images["thickness"][image.images["through_back"] != 0] for image, _ in views.pairs]
+    words = (("Even grey at the back of a mammogram: behind the model, where nothing is known.", any((mm <= 0).any() for mm in behind)),
+             ("At the back of a mammogram, what lies behind the model is drawn as fat.", any((mm > 0).any() for mm in behind)))
+    return [said for said, shown in words if shown]
 
 
 def _animations(run: Path) -> list[tuple[str, str]]:

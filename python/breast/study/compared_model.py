@@ -75,6 +75,8 @@ def _of_reports(first: Path, second: Path) -> Iterator[tuple[str, dict[str, str]
 
 def _settings(report: StageReport, stage: str) -> dict[str, str]:
     said = options_of(report.text("command")) if report.text("command") else {}
+    if stage in _SHAPES:  # the model in the file says which set was taken, also where none was named
+        said = {option: values for option, values in said.items() if not option.endswith(" --materials")}
     chosen = {key.replace("_mm", ", mm").replace("_deg", ", degrees"): _short(report, key) for key in _REPORTED.get(stage, ())}
     return {**said, "version of libbreast": report.text("version"), **{what: value for what, value in chosen.items() if value}}
 

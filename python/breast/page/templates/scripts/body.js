@@ -38,6 +38,7 @@ const body = (() => {
     pen.textAlign = 'center';
     for (const [name, axis] of [['L', [1, 0, 0]], ['A', [0, -1, 0]], ['S', [0, 0, 1]]]) {
       const [x, y] = turned(...axis);
+      if (Math.hypot(x, y) < 0.4) continue;  // seen from its end, its letter would lie on another
       pen.strokeStyle = '#dfe8f0';
       pen.beginPath();
       pen.moveTo(x0, y0);
