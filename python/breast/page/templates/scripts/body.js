@@ -33,7 +33,7 @@ const body = (() => {
     }
   }
   function axes(pen) {
-    const x0 = 34, y0 = h - 34;
+    const x0 = 34, y0 = h - 34, letters = [];
     pen.font = 'bold 12px sans-serif';
     pen.textAlign = 'center';
     for (const [name, axis] of [['L', [1, 0, 0]], ['A', [0, -1, 0]], ['S', [0, 0, 1]]]) {
@@ -45,7 +45,10 @@ const body = (() => {
       pen.lineTo(x0 + 20 * x, y0 + 20 * y);
       pen.lineWidth = 1.5;
       pen.stroke();
-      write(pen, name, x0 + 27 * x, y0 + 27 * y + 4, '#dfe8f0');
+      let reach = 27;  // as far along its axis as no other letter lies there
+      while (reach < 60 && letters.some(other => Math.hypot(x0 + reach * x - other[0], y0 + reach * y - other[1]) < 13)) reach += 4;
+      letters.push([x0 + reach * x, y0 + reach * y]);
+      write(pen, name, x0 + reach * x, y0 + reach * y + 4, '#dfe8f0');
     }
     pen.textAlign = 'left';
   }
