@@ -90,7 +90,9 @@ std::shared_ptr<FrictionTerm> recorded_friction(const HexMesh& mesh, const Plate
       throw input_error("contact record: friction at node ", held.node, ", but the mesh has ",
                         mesh.nodes());
     }
-    entries.push_back({held.node, held.plate, held.anchor, held.bound, held.stick});
+    entries.push_back(
+        {held.node, held.plate, held.anchor, held.bound, held.stick,
+         kept_normal(plates.plate(held.plate), held.anchor, mesh.points[std::size_t(held.node)])});
   }
   auto friction = std::make_shared<FrictionTerm>();
   friction->set_plates(plates);

@@ -3,6 +3,7 @@
 // is tested by being added to the list.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <functional>
 #include <set>
@@ -381,6 +382,29 @@ TEST(FrictionTerm, AnchorInThePlaneOfTheNodeChangesNoForce) {
     const FrictionForce before = fixed.at(held, x), after = kept.at(kept.entries()[0], x);
     EXPECT_LT((before.force - after.force).norm(), 1e-12 * before.force.norm());
     EXPECT_EQ(before.slips, after.slips);
+  }
+}
+
+// In the edge a node may turn the plate's normal away from the one of the solve.
+TEST(FrictionTerm, AnchorInThePlaneOfAnotherNormalHoldsAsBefore) {
+  Plate plate = plate_facing(view_pose(Side::left, 0));
+  plate.far_edge = plate.half_width = 200;
+  plate.edge_radius = 10;
+  const Eigen::Vector3d x(0, 6, 3);
+  const Vec3 here = plate.gap(x).gradient;
+  for (const Vec3& kept :
+       {Vec3(here.cross(Vec3(1, 0, 0)) + 0.2 * here), Vec3(here + Vec3(0.8, 0, 0.3))}) {
+    for (const double bound : {1e9, 50.0}) {
+      FrictionTerm solved, read;
+      for (FrictionTerm* term : {&solved, &read}) term->set_plates(fixtures::pair_at(plate, 0, 60));
+      solved.set_entries({{0, 0, x + Vec3(2, 1, 4), bound, 100, kept.normalized()}});
+      const Vec3 anchor = solved.anchor_in_plane(solved.entries()[0], x);
+      const Vec3 force = solved.at(solved.entries()[0], x).force;
+      read.set_entries({{0, 0, anchor, bound, 100}});
+      EXPECT_GT((read.at(read.entries()[0], x).force - force).norm(), 0.01 * force.norm());
+      read.set_entries({{0, 0, anchor, bound, 100, kept_normal(plate, anchor, x)}});
+      EXPECT_LT((read.at(read.entries()[0], x).force - force).norm(), 1e-12 * force.norm());
+    }
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/terms/friction.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 namespace breast {
@@ -33,6 +34,14 @@ Vec3 FrictionTerm::next_anchor(const FrictionEntry& entry, const Eigen::VectorXd
   const Vec3 place = x.segment<3>(3L * entry.node);
   if (!(entry.stick > 0)) return place;
   return place + at(entry, x).force / entry.stick;
+}
+
+Vec3 kept_normal(const Plate& plate, const Vec3& anchor, const Vec3& x) {
+  constexpr double least_sine = 0.01;
+  const Vec3 here = plate.gap(x).gradient, slid = x - anchor;
+  if (!(slid.norm() > 0)) return here;
+  const Vec3 along = slid.normalized(), across = here - here.dot(along) * along;
+  return across.norm() > least_sine ? across.normalized() : along.unitOrthogonal();
 }
 
 void FrictionTerm::set_entries(std::vector<FrictionEntry> entries) {
