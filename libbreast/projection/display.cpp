@@ -10,8 +10,7 @@ namespace {
 
 // The contrast is steeper in dense tissue than at the skin, as with film.
 constexpr double display_gamma = 2;
-// The brightness of muscle relative to fat and gland, because this region is mostly the pectoral
-// muscle.
+// Where nothing is known: an even grey between fat and dense tissue.
 constexpr std::uint16_t unknown_grey = 28000;
 // Where tissue is thinner than between the plates, the image fades towards the skin. A little
 // compensation keeps the skin line visible; more would make it a bright seam, because rays that

@@ -323,6 +323,7 @@ std::string refusal_alone(Work& work, Segmentation& result, const SegmentOptions
   try {
     return find_contrast(work, result, options, progress, timer);
   } catch (const Error& error) {
+    if (error.kind() != ErrorKind::input) throw;
     return error.what();
   }
 }
@@ -413,6 +414,7 @@ std::string refusal_as_suppressed(Work& work, Images& images, Segmentation& resu
   try {
     return read_suppressed(work, images, result, options, progress, timer);
   } catch (const Error& error) {
+    if (error.kind() != ErrorKind::input) throw;
     return error.what();
   }
 }
@@ -442,6 +444,7 @@ void find_wall_alone(Work& work, Images& images, Segmentation& result,
     throw input_error(options.fat ? "the sum of water and fat: " : "", refusal);
   const std::string suppressed =
       refusal_as_suppressed(work, images, result, options, progress, timer);
+  if (suppressed == refusal) throw input_error(refusal);
   if (!suppressed.empty())
     throw input_error(refusal, "; as a scan with suppressed fat: ", suppressed);
 }

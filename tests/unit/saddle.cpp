@@ -228,6 +228,13 @@ TEST(SaddleSolver, IndefiniteMatrixIsShiftedAndSaidToBe) {
   EXPECT_TRUE(factor.ok);
   EXPECT_GT(factor.shift, 0);
   EXPECT_GT(factor.attempts, 1);
+  // The search begins near the last shift, also after a tangent that needs none.
+  SaddleMatrix definite = small.problem->make_matrix();
+  ASSERT_TRUE(small.problem->tangent(small.state, forces, definite));
+  EXPECT_EQ(solver.factorise(definite, small.scene->walls()).shift, 0);
+  const Factorisation again = solver.factorise(matrix, small.scene->walls());
+  EXPECT_EQ(again.shift, factor.shift);
+  EXPECT_LT(again.attempts, factor.attempts);
 }
 
 TEST(NodeMatrix, IsSymmetricAndMatchesItsBlocks) {

@@ -385,6 +385,14 @@ TEST(FrictionTerm, AnchorInThePlaneOfTheNodeChangesNoForce) {
   }
 }
 
+TEST(FrictionTerm, RoundingOfANodeThatSticksTurnsNoNormal) {
+  Plate plate = plate_facing(view_pose(Side::left, 0));
+  plate.far_edge = plate.half_width = 200;
+  plate.edge_radius = 10;
+  const Vec3 x(0, 6, 3), normal = plate.gap(x).gradient;
+  EXPECT_EQ(kept_normal(plate, x + 1e-14 * normal, x), normal);
+}
+
 // In the edge a node may turn the plate's normal away from the one of the solve.
 TEST(FrictionTerm, AnchorInThePlaneOfAnotherNormalHoldsAsBefore) {
   Plate plate = plate_facing(view_pose(Side::left, 0));

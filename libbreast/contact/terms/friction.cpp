@@ -37,9 +37,9 @@ Vec3 FrictionTerm::next_anchor(const FrictionEntry& entry, const Eigen::VectorXd
 }
 
 Vec3 kept_normal(const Plate& plate, const Vec3& anchor, const Vec3& x) {
-  constexpr double least_sine = 0.01;
+  constexpr double least_sine = 0.01, least_slip = 1e-9;  // mm; below it the line is rounding
   const Vec3 here = plate.gap(x).gradient, slid = x - anchor;
-  if (!(slid.norm() > 0)) return here;
+  if (!(slid.norm() > least_slip)) return here;
   const Vec3 along = slid.normalized(), across = here - here.dot(along) * along;
   return across.norm() > least_sine ? across.normalized() : along.unitOrthogonal();
 }

@@ -53,9 +53,10 @@ struct FrictionEntry {
   std::optional<Vec3> normal = {};
 };
 
-/// A normal with which an anchor in the plane of a node at `x` (anchor_in_plane) holds it as it did with the normal of its own
-/// solve: perpendicular to the line between them, otherwise that of the plate. The plate's own normal at the node may point
-/// elsewhere where the node lies deep in a rounded edge.
+/// A normal with which an anchor in the plane of a node at `x` (anchor_in_plane) gives the same force as with the
+/// normal of its own solve: the nearest to the plate's that is perpendicular to the line between them. The plate's
+/// own normal at the node may point elsewhere where the node lies deep in a rounded edge. The stiffness is that of
+/// this normal.
 Vec3 kept_normal(const Plate& plate, const Vec3& anchor, const Vec3& x);
 
 /// With fixed normals the tangent is exact and the force has an energy. Without, the tangent neglects

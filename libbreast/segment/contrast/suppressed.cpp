@@ -390,8 +390,8 @@ void show_gland(Work& work, const Volume<float>& scan, Images& images, Suppresse
   fat.gland = brightness_of_gland(work, relative, wider(fat.failed, by_failed), fat.water);
   const Shown as{fat.gland, gland_as_in_t1, fat.failed_brightness};
   work.scan = shown_for_gland(scan, work, fat, as);
-  images.speckled =
-      false;  // which was judged by what is bright, and little is where fat is suppressed
+  // Speckle was judged by what is bright, and little is bright where fat is suppressed.
+  images.speckled = false;
   images.outline = std::move(images.tissue);
   images.tissue = shown_for_gland(images.outline, work, fat, as);
   work.wall.muscle_ratio =

@@ -13,7 +13,7 @@ from .colours import INK, TUMOUR, WHITE, Colour, Stroke
 from .inputs import Inputs, need
 from .layout import RING, SMALL, Panel, Picture
 
-_UNKNOWN_GREY = 28000 / 65535  # as bright as muscle, which is what lies there
+_UNKNOWN_GREY = 28000 / 65535  # between fat and dense tissue
 _GAMMA, _THIN_EXPONENT, _SOFT = 2, 0.2, 2
 _CURVE, _ARC = Stroke((0.1, 0.9, 0.4), 3), Stroke((0.35, 0.65, 1.0), 2.2, (3, 1.6))
 _AXIS = 76  # pixels beside the image
