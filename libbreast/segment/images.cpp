@@ -35,8 +35,9 @@ Mask seen_from(const Grid& scanned, const Mask& seen, const Grid& grid) {
 }  // namespace
 
 void measure_noise(Images& images) {
-  images.noise = disturbing_noise(images.tissue);
-  images.speckled = has_speckle(images.tissue);
+  const Noise noise = noise_of(images.tissue);
+  images.noise = disturbing_noise(images.tissue, noise);
+  images.speckled = is_speckle(noise);
 }
 
 Images images_of(const Volume<float>& scan, const SegmentOptions& options) {

@@ -317,15 +317,21 @@ std::string find_contrast(Work& work, Segmentation& result, const SegmentOptions
   return refusal.empty() ? refusal_of(result.contrast) : refusal;
 }
 
-/// Why the scan alone does not show the wall; empty if it does.
-std::string refusal_alone(Work& work, Segmentation& result, const SegmentOptions& options,
-                          Progress& progress, Timer& timer) {
+/// The reason for a refusal that `read` returns or throws; empty if the scan can be read.
+template <typename Read>
+std::string refusal_of_reading(Read&& read) {
   try {
-    return find_contrast(work, result, options, progress, timer);
+    return read();
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::input) throw;
     return error.what();
   }
+}
+
+/// Why the scan alone does not show the wall; empty if it does.
+std::string refusal_alone(Work& work, Segmentation& result, const SegmentOptions& options,
+                          Progress& progress, Timer& timer) {
+  return refusal_of_reading([&] { return find_contrast(work, result, options, progress, timer); });
 }
 
 /// Puts the second scan in the place of the first for all but the skin.
@@ -408,17 +414,6 @@ std::string read_suppressed(Work& work, Images& images, Segmentation& result,
   return "";
 }
 
-/// As read_suppressed(), also where the scan cannot be read at all.
-std::string refusal_as_suppressed(Work& work, Images& images, Segmentation& result,
-                                  const SegmentOptions& options, Progress& progress, Timer& timer) {
-  try {
-    return read_suppressed(work, images, result, options, progress, timer);
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::input) throw;
-    return error.what();
-  }
-}
-
 /// Bias and wall of a scan that comes alone. One that is refused as a scan with bright fat is read as one with
 /// suppressed fat, unless the user says what it is.
 void find_wall_alone(Work& work, Images& images, Segmentation& result,
@@ -442,8 +437,8 @@ void find_wall_alone(Work& work, Images& images, Segmentation& result,
   }
   if (!suppressed_too || !may_be_suppressed(result.contrast))
     throw input_error(options.fat ? "the sum of water and fat: " : "", refusal);
-  const std::string suppressed =
-      refusal_as_suppressed(work, images, result, options, progress, timer);
+  const std::string suppressed = refusal_of_reading(
+      [&] { return read_suppressed(work, images, result, options, progress, timer); });
   if (suppressed == refusal) throw input_error(refusal);
   if (!suppressed.empty())
     throw input_error(refusal, "; as a scan with suppressed fat: ", suppressed);

@@ -19,7 +19,7 @@ struct Images {
   Volume<float> fat_share;  ///< of a Dixon scan: fat over water and fat; otherwise empty
   Mask seen;                ///< as voxels_with_data(); elsewhere the others are continued
   double noise = 0;         ///< as disturbing_noise() of `tissue`
-  bool speckled = false;    ///< as has_speckle() of `tissue`
+  bool speckled = false;    ///< as is_speckle() of the noise of `tissue`
 };
 /// Sets `noise` and `speckled` from `tissue`.
 void measure_noise(Images& images);

@@ -82,9 +82,9 @@ TEST(Noise, SpeckleGoesAndEdgesStay) {
   for (int k = 0; k < 10; ++k)
     for (int j = 10; j < 40; ++j)
       for (int i = 0; i < 40; ++i) scan.at(i, j, k) = i < 20 ? 100 : 40;
-  EXPECT_FALSE(has_speckle(scan));
+  EXPECT_FALSE(is_speckle(noise_of(scan)));
   Volume<float> noisy = testing::noisy(scan, 0.1);
-  EXPECT_TRUE(has_speckle(noisy));
+  EXPECT_TRUE(is_speckle(noise_of(noisy)));
   const auto off = [&](const Volume<float>& one) {
     double sum = 0;
     for (std::size_t n = 0; n < one.voxels.size(); ++n)
@@ -111,7 +111,7 @@ TEST(Noise, IsTakenFromSignalAndAirAlike) {
   std::mt19937 random(3);
   std::normal_distribution<double> normal(0, deviation);
   for (float& v : scan.voxels) v = float(std::hypot(v + normal(random), normal(random)));
-  const double found = disturbing_noise(scan);
+  const double found = disturbing_noise(scan, noise_of(scan));
   EXPECT_NEAR(found, deviation, 0.5);
   const Volume<float> signal = without_noise(scan, found);
   const auto mean = [&](int first, int last, int row) {

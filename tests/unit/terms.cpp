@@ -336,12 +336,18 @@ TEST_P(EveryTerm, TouchesOnlyTheNodesItNames) {
 INSTANTIATE_TEST_SUITE_P(Terms, EveryTerm, testing::ValuesIn(all_terms()),
                          [](const auto& each) { return each.param.name; });
 
-// On a rounded edge the plate's normal turns with the node, which friction's tangent leaves out unless
-// the normal is fixed.
-TEST(FrictionTerm, TangentIsExactOnAFlatPlateOrWithAFixedNormal) {
+/// A wide paddle with an edge of 10 mm.
+Plate rounded_plate() {
   Plate plate = plate_facing(view_pose(Side::left, 0));
   plate.far_edge = plate.half_width = 200;
   plate.edge_radius = 10;
+  return plate;
+}
+
+// On a rounded edge the plate's normal turns with the node, which friction's tangent leaves out unless
+// the normal is fixed.
+TEST(FrictionTerm, TangentIsExactOnAFlatPlateOrWithAFixedNormal) {
+  const Plate plate = rounded_plate();
   FrictionTerm term;
   term.set_plates(fixtures::pair_at(plate, 0, 60));
   const auto error_at = [&](const Vec3& x, std::optional<Vec3> normal, double bound) {
@@ -366,9 +372,7 @@ TEST(FrictionTerm, TangentIsExactOnAFlatPlateOrWithAFixedNormal) {
 
 // What a file keeps: without a lever along the normal, the force is the same with the normal at the node.
 TEST(FrictionTerm, AnchorInThePlaneOfTheNodeChangesNoForce) {
-  Plate plate = plate_facing(view_pose(Side::left, 0));
-  plate.far_edge = plate.half_width = 200;
-  plate.edge_radius = 10;
+  const Plate plate = rounded_plate();
   const Eigen::Vector3d x(0, 6, 3);
   const Vec3 normal = plate.gap(x).gradient;
   for (const double bound : {1e9, 50.0}) {
@@ -385,19 +389,16 @@ TEST(FrictionTerm, AnchorInThePlaneOfTheNodeChangesNoForce) {
   }
 }
 
+// Its anchor differs from it by rounding, in any direction.
 TEST(FrictionTerm, RoundingOfANodeThatSticksTurnsNoNormal) {
-  Plate plate = plate_facing(view_pose(Side::left, 0));
-  plate.far_edge = plate.half_width = 200;
-  plate.edge_radius = 10;
+  const Plate plate = rounded_plate();
   const Vec3 x(0, 6, 3), normal = plate.gap(x).gradient;
   EXPECT_EQ(kept_normal(plate, x + 1e-14 * normal, x), normal);
 }
 
 // In the edge a node may turn the plate's normal away from the one of the solve.
 TEST(FrictionTerm, AnchorInThePlaneOfAnotherNormalHoldsAsBefore) {
-  Plate plate = plate_facing(view_pose(Side::left, 0));
-  plate.far_edge = plate.half_width = 200;
-  plate.edge_radius = 10;
+  const Plate plate = rounded_plate();
   const Eigen::Vector3d x(0, 6, 3);
   const Vec3 here = plate.gap(x).gradient;
   for (const Vec3& kept :

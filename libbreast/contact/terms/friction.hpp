@@ -53,10 +53,10 @@ struct FrictionEntry {
   std::optional<Vec3> normal = {};
 };
 
-/// A normal with which an anchor in the plane of a node at `x` (anchor_in_plane) gives the same force as with the
-/// normal of its own solve: the nearest to the plate's that is perpendicular to the line between them. The plate's
-/// own normal at the node may point elsewhere where the node lies deep in a rounded edge. The stiffness is that of
-/// this normal.
+/// Restores the normal of a recorded entry as far as its force needs it. The anchor was recorded in the plane through the
+/// node at `x` (mm) that is perpendicular to the normal of the solve (anchor_in_plane). The result is, of the normals
+/// that are perpendicular to the line from `anchor` (mm) to `x`, the nearest to the plate's own normal there, which points
+/// elsewhere where the node lies deep in a rounded edge. It gives the same force; the stiffness may differ.
 Vec3 kept_normal(const Plate& plate, const Vec3& anchor, const Vec3& x);
 
 /// With fixed normals the tangent is exact and the force has an energy. Without, the tangent neglects

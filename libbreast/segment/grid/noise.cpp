@@ -36,13 +36,6 @@ Volume<float> without_noise(const Volume<float>& scan, double noise) {
   return signal;
 }
 
-namespace {
-
-/// Standard deviation of the noise, and what it is of bright tissue.
-struct Noise {
-  double deviation = 0, share = 0;
-};
-
 Noise noise_of(const Volume<float>& scan) {
   constexpr double rayleigh = 2.146;  // its 90th percentile over the standard deviation
   const double air = corner_air_level(scan);
@@ -53,11 +46,9 @@ Noise noise_of(const Volume<float>& scan) {
   return {air / rayleigh, bright > 0 ? air / rayleigh / bright : 0};
 }
 
-}  // namespace
-
-bool has_speckle(const Volume<float>& scan) {
+bool is_speckle(const Noise& noise) {
   constexpr double least = 0.04;
-  return noise_of(scan).share > least;
+  return noise.share > least;
 }
 
 void remove_speckle(Volume<float>& scan) {
@@ -69,9 +60,8 @@ void remove_speckle(Volume<float>& scan) {
   }
 }
 
-double disturbing_noise(const Volume<float>& scan) {
+double disturbing_noise(const Volume<float>& scan, const Noise& noise) {
   constexpr double least = 0.06, hidden = 2.5, share = 0.25;
-  const Noise noise = noise_of(scan);
   if (!(noise.share > least)) return 0;
   std::vector<float> body = without_noise(scan, noise.deviation).voxels;
   std::erase_if(body, [&](float v) { return v < noise.deviation; });

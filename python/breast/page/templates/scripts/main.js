@@ -28,7 +28,8 @@ if (artificial) {
   document.getElementById('tumour-name').textContent = 'artificial tumour: put there by the program, not a finding';
   document.querySelector('#legend .tumour').style.borderStyle = 'dashed';
 }
-for (const about of [document.getElementById('band-legend'), document.getElementById('show-band').closest('label')]) about.hidden = !lookups.some(lookup => lookup.deviation.some(value => value > 0));
+const banded = lookups.some(lookup => lookup.deviation.some(value => value > 0));
+for (const about of [document.getElementById('band-legend'), document.getElementById('show-band').closest('label')]) about.hidden = !banded;
 new ResizeObserver(redraw).observe(document.getElementById('views'));
 // page.html#30,50;MLO:20,40 keeps points as a link or a test asks for; the first view is meant where none is named.
 for (const word of decodeURIComponent(location.hash.slice(1)).split(';').filter(Boolean)) {
