@@ -29,10 +29,10 @@ class BackwardSolve {
         steps_(loaded_, solver_, solve_reference_by(solver_), fail_fast, "backward", found_,
                progress) {
     if (!scene_.corners_resist()) return;
-    freed_ = std::make_unique<LoadedProblem>(
-        scene_.problem_with_free_corners(Eigen::VectorXd::Zero(3L * mesh.nodes())));
-    free_steps_ = std::make_unique<BackwardSteps>(*freed_, solver_, solve_reference_by(solver_),
-                                                  fail_fast, "backward", found_, progress);
+    yielding_ = std::make_unique<LoadedProblem>(
+        scene_.problem_with_yielding_corners(Eigen::VectorXd::Zero(3L * mesh.nodes())));
+    first_steps_ = std::make_unique<BackwardSteps>(*yielding_, solver_, solve_reference_by(solver_),
+                                                   fail_fast, "backward", found_, progress);
   }
 
   Equilibrium run(const Vec3& gravity);
@@ -55,16 +55,16 @@ class BackwardSolve {
   LoadedProblem loaded_;
   SaddleSolver solver_;
   BackwardSteps steps_;
-  // The same body with corners that do not resist; null if they never do.
-  std::unique_ptr<LoadedProblem> freed_;
-  std::unique_ptr<BackwardSteps> free_steps_;
+  // The same body with corners that yield; null if they never resist.
+  std::unique_ptr<LoadedProblem> yielding_;
+  std::unique_ptr<BackwardSteps> first_steps_;
 };
 
 // Corners resist the changes of volume that a linear step of the whole way makes, so that Newton's steps
-// from the imaged shape would be short (14 to 58 in place of 12): the body first yields there.
+// from the imaged shape would be short and many: the body first yields there, roughly solved.
 State BackwardSolve::start(const Eigen::VectorXd& load) {
   State state = guess();
-  if (free_steps_) free_steps_->approach(load, state);
+  if (first_steps_) first_steps_->approach(load, state);
   return state;
 }
 

@@ -6,6 +6,12 @@
 
 namespace breast {
 
+namespace {
+
+constexpr double rough_tolerance = 1e-2;
+
+}  // namespace
+
 BackwardSteps::BackwardSteps(LoadedProblem& loaded, SaddleSolverBase& solver,
                              SolveReference solve_reference, bool fail_fast, std::string name,
                              Equilibrium& found, Progress& progress)
@@ -18,7 +24,8 @@ BackwardSteps::BackwardSteps(LoadedProblem& loaded, SaddleSolverBase& solver,
       inverse_(loaded.problem, solver, std::move(solve_reference), fail_fast, found.timer) {}
 
 NewtonResult BackwardSteps::attempt(State& state, double from, double to) {
-  NewtonResult result = inverse_.solve(state, log_.begin_step(name_, from, to, inverse_tolerance));
+  NewtonResult result =
+      inverse_.solve(state, tolerance_, log_.begin_step(name_, from, to, tolerance_));
   found_.residual = result.residual;
   found_.min_det_F = inverse_.min_det_F();
   return result;
@@ -48,8 +55,10 @@ LoadReached BackwardSteps::follow(const Eigen::VectorXd& load, State& state) {
 }
 
 void BackwardSteps::approach(const Eigen::VectorXd& load, State& state) {
+  tolerance_ = rough_tolerance;
   State near = state;
   if (follow(load, near).whole()) state = std::move(near);
+  tolerance_ = inverse_tolerance;
 }
 
 void BackwardSteps::run(const Eigen::VectorXd& load, State& state) {

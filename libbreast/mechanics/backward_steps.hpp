@@ -20,7 +20,7 @@ class BackwardSteps {
   /// Increases the load from `state` to `load` (nodal forces, µN) and judges the last solution, which
   /// `state` then is.
   void run(const Eigen::VectorXd& load, State& state);
-  /// As run, without a judgement: the result is only an approximation from which another solve starts.
+  /// As run, without a judgement and roughly: the result is only a state from which another solve starts.
   /// `state` changes only if the whole load is reached.
   void approach(const Eigen::VectorXd& load, State& state);
   /// Whether a body that is stable in the imaged shape is found in one step under `load`.
@@ -34,6 +34,7 @@ class BackwardSteps {
   void judge(const LoadReached& reached);
 
   LoadedProblem& loaded_;
+  double tolerance_ = inverse_tolerance;
   SaddleSolverBase& solver_;
   bool fail_fast_;
   std::string name_;

@@ -14,7 +14,7 @@ constexpr int max_newton_iterations = 25;
 // One factor is used until GMRES needs more iterations than this, because its back-substitutions
 // then cost as much as a factorisation.
 constexpr int factor_worn = 10, levels_worn = 45;
-constexpr double tolerance = inverse_tolerance, volume_tolerance = 1e-11;
+constexpr double of_volumes = 0.1;  // tolerance of volumes relative to that of forces
 constexpr double near_tolerance = 1e-8, near_volume_tolerance = 1e-9;
 // A volume error of this size counts as much as the whole load in the assessment of a step.
 constexpr double typical_strain = 0.05;
@@ -24,7 +24,8 @@ constexpr double largest_growth = 20;  // of the largest det F in a step
 
 class InverseSolver::System final : public NewtonSystem {
  public:
-  System(InverseSolver& owner, State& state) : owner_(owner), state_(state) {}
+  System(InverseSolver& owner, State& state, double tolerance)
+      : owner_(owner), state_(state), tolerance_(tolerance) {}
 
   Balance assess(const NewtonResult& so_far) override;
   NewtonDirection direction(const Balance& now) override;
@@ -51,6 +52,7 @@ class InverseSolver::System final : public NewtonSystem {
 
   InverseSolver& owner_;
   State& state_;
+  const double tolerance_;
   Forces forces_;
   ReferenceStep step_;
   NewtonStop refusal_ = NewtonStop::folded;
@@ -89,11 +91,11 @@ Balance InverseSolver::System::assess(const NewtonResult& so_far) {
   owner_.min_det_F_ = forces_.min_det_F;
   const Distance at = distance(forces_);
   const double bound =
-      std::max(tolerance, owner_.problem_.rounding_force(owner_.matrix_, state_.x) /
-                              owner_.problem_.load_norm());
+      std::max(tolerance_, owner_.problem_.rounding_force(owner_.matrix_, state_.x) /
+                               owner_.problem_.load_norm());
   now.residual = at.force;
   now.merit = at.merit;
-  now.converged = at.force <= bound && at.volume <= volume_tolerance;
+  now.converged = at.force <= bound && at.volume <= of_volumes * tolerance_;
   now.nearly = at.force <= near_tolerance && at.volume <= near_volume_tolerance;
   if (!now.converged && int(so_far.iterations.size()) >= max_newton_iterations) {
     now.stop = NewtonStop::iteration_limit;
@@ -180,9 +182,9 @@ InverseSolver::InverseSolver(const Problem& problem, SaddleSolverBase& solver,
       timer_(timer),
       matrix_(problem.make_matrix()) {}
 
-NewtonResult InverseSolver::solve(State& state,
+NewtonResult InverseSolver::solve(State& state, double tolerance,
                                   const std::function<void(const NewtonIteration&)>& watch) {
-  System system(*this, state);
+  System system(*this, state, tolerance);
   return newton(system, watch);
 }
 

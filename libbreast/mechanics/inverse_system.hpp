@@ -33,8 +33,10 @@ class InverseSolver {
   InverseSolver(const Problem& problem, SaddleSolverBase& solver, SolveReference solve_reference,
                 bool fail_fast, Timer& timer);
 
-  /// Moves state.reference and state.p; if it does not converge, to the last admissible ones.
-  NewtonResult solve(State& state, const std::function<void(const NewtonIteration&)>& watch);
+  /// Moves state.reference and state.p until the residual of the forces is `tolerance` of the load, and that of the
+  /// volumes a tenth of it; if it does not converge, to the last admissible ones.
+  NewtonResult solve(State& state, double tolerance,
+                     const std::function<void(const NewtonIteration&)>& watch);
   /// Whether the forward tangent at the state is known to be positive definite; `augmentation` is
   /// κ/μ, where 0 chooses what suits the linear solver.
   bool stable(const State& state, double augmentation);

@@ -22,6 +22,9 @@ std::shared_ptr<const LevelSurface> wall_surface(const HexMesh& mesh,
   return std::make_shared<ThoraxSurface>(*mesh.geometry->thorax);
 }
 
+// Of the resistance of corners, in a problem from whose solution that with all of it is found.
+constexpr double yielding = 0.3;
+
 void check(const HexMesh& mesh) {
   if (mesh.elements() == 0) throw input_error("mesh: no elements");
   if (mesh.pectoral_faces.empty()) {
@@ -116,8 +119,8 @@ LoadedProblem Scene::problem(const Eigen::VectorXd& force) const {
   return problem_with(corners_, force);
 }
 
-LoadedProblem Scene::problem_with_free_corners(const Eigen::VectorXd& force) const {
-  return problem_with(nullptr, force);
+LoadedProblem Scene::problem_with_yielding_corners(const Eigen::VectorXd& force) const {
+  return problem_with(make_corner_volume(mesh_, options_, *solid_->space(), yielding), force);
 }
 
 LoadedProblem Scene::problem_with(const std::shared_ptr<const Term>& corners,

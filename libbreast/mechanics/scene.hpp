@@ -66,9 +66,9 @@ class Scene {
 
   /// Terms and constraints of this scene under nodal forces (µN, 3 per node).
   LoadedProblem problem(const Eigen::VectorXd& force) const;
-  /// The same, but the corners of elements do not resist changes of volume: a problem with a close
-  /// solution that is easier to find.
-  LoadedProblem problem_with_free_corners(const Eigen::VectorXd& force) const;
+  /// The same, but the corners of elements resist changes of volume less: a problem with a close solution
+  /// that is easier to find. They do resist, so that no element of this solution is turned inside out.
+  LoadedProblem problem_with_yielding_corners(const Eigen::VectorXd& force) const;
   bool corners_resist() const { return corners_ != nullptr; }
   /// Nodal gravity forces, µN (3 per node), from the imaged shape, with those of the supports'
   /// loads. `gravity`: mm/s², LPS.

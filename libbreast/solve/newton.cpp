@@ -36,7 +36,7 @@ NewtonResult newton(NewtonSystem& system,
     result.converged = folded < 0;
     if (folded < 0) return;
     give_up(NewtonStop::folded, message("element ", folded,
-                                        " of the state found is turned inside out at a corner or a "
+                                        " of the state found is turned inside out at a node or a "
                                         "quadrature point"));
   };
   while (true) {

@@ -114,7 +114,7 @@ class NewtonSystem {
   virtual void accept(Trial trial) = 0;
   /// Why the last attempt was inadmissible.
   virtual NewtonStop refusal() const { return NewtonStop::folded; }
-  /// An element of the present state that is turned inside out at a corner or a quadrature point;
+  /// An element of the present state that is turned inside out at a node or a quadrature point;
   /// −1: none. A state with such an element is not accepted, however small its residual.
   virtual int folded_element() const { return -1; }
 };

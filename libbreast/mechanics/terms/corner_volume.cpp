@@ -15,8 +15,6 @@ namespace breast {
 
 namespace {
 
-constexpr int corners = 8;  // the first nodes of an element
-
 /// `N`: nodes of an element, 8 or 27.
 template <int N>
 class CornerVolume final : public Term {
@@ -30,20 +28,22 @@ class CornerVolume final : public Term {
   using Column = Eigen::Matrix<double, 3 * N, 1>;
   using Square = Eigen::Matrix<double, 3 * N, 3 * N>;
   static constexpr int K = 9 * N * N;
+  // An element's nodes share its volume equally; the reference element has a volume of 8.
+  static constexpr double share = 8.0 / N;
   bool element(int e, const State& state, CellMatrices* reference, CellResults& results) const;
 
   std::vector<double> bulk_;  // per element, Pa
   Cells cells_;
   std::shared_ptr<const ScatterMap> scatter_;
-  std::array<Eigen::Matrix<double, 3, N>, corners> gradients_;  // ∂N/∂ξ at the corners
+  std::array<Eigen::Matrix<double, 3, N>, N> gradients_;  // ∂N/∂ξ at the nodes
 };
 
 template <int N>
 CornerVolume<N>::CornerVolume(std::vector<double> bulk, const Discretisation& space)
     : bulk_(std::move(bulk)), cells_(space.cells) {
   constexpr int order = N == 8 ? 1 : 2;
-  for (int c = 0; c < corners; ++c)
-    gradients_[std::size_t(c)] = hex_shape(order, hex_node_local(order, c)).gradients;
+  for (int a = 0; a < N; ++a)
+    gradients_[std::size_t(a)] = hex_shape(order, hex_node_local(order, a)).gradients;
   if (space.pattern) scatter_ = std::make_shared<ScatterMap>(*space.pattern, cells_);
 }
 
@@ -60,7 +60,8 @@ bool CornerVolume<N>::element(int e, const State& state, CellMatrices* reference
     const Mat3 from = before * shape.transpose(), to = after * shape.transpose();
     const double volume = from.determinant(), now = to.determinant();
     if (!(volume > 0) || !(now > 0)) return false;
-    const double stiffness = bulk_[std::size_t(e)] * volume, strain = std::log(now / volume);
+    const double stiffness = share * bulk_[std::size_t(e)] * volume;
+    const double strain = std::log(now / volume);
     const double square = strain * strain;
     // ∂ ln det(∂x/∂ξ)/∂x, component by component.
     const Eigen::Matrix<double, 3, N> rate = to.inverse().transpose() * shape;
@@ -109,10 +110,10 @@ bool CornerVolume<N>::add(const State& state, const Request& request, Forces& fo
 }  // namespace
 
 std::shared_ptr<const Term> make_corner_volume(const HexMesh& mesh, const MechanicsOptions& options,
-                                               const Discretisation& space) {
+                                               const Discretisation& space, double factor) {
   std::vector<double> bulk;
   for (const Tissue tissue : mesh.tissue)
-    bulk.push_back(options.materials.corner_bulk[std::size_t(tissue)]);
+    bulk.push_back(factor * options.materials.corner_bulk[std::size_t(tissue)]);
   if (std::all_of(bulk.begin(), bulk.end(), [](double k) { return k == 0; })) return nullptr;
   if (mesh.order == 1) return std::make_shared<CornerVolume<8>>(std::move(bulk), space);
   return std::make_shared<CornerVolume<27>>(std::move(bulk), space);
