@@ -83,7 +83,7 @@ STATES ?= 13
 PRINTED_HEXMESH = --template cuboid --elements $(ELEMENTS) --skin-as layer
 PRINTED_MECHANICS = --materials $(MATERIALS) --invariants plain --element q1p0
 HEXMESH_OPTIONS ?= $(if $(PAPER),$(PRINTED_HEXMESH),--elements $(ELEMENTS) $(addprefix --muscle ,$(filter-out 0,$(MUSCLE))) \
-  $(addprefix --surroundings ,$(filter-out 0,$(SURROUNDINGS))))
+  $(addprefix --surroundings ,$(filter-out 0,$(SURROUNDINGS))) $(if $(filter q2p1,$(ELEMENT)),--order 2))
 MECHANICS ?= $(if $(PAPER),$(PRINTED_MECHANICS),--materials $(MATERIALS) $(addprefix --element ,$(ELEMENT)))
 COMPRESS_OPTIONS ?= $(if $(PAPER),--gravity off --contact al)
 SEGMENT ?= $(BIN)/segment
