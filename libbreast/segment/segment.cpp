@@ -189,6 +189,7 @@ void doubt_extent(Segmentation& result, const Extents& found, const SegmentOptio
   result.front_left_out_percent = found.front_left_out_percent;
   result.lateral_border_mm = found.lateral_border_mm;
   result.nipple_depth_mm = found.nipple_depth_mm;
+  result.view_behind_sternum_mm = found.view_behind_sternum_mm;
   if (options.posture != Posture::prone) {
     if (found.nipple_in_front_mm > hanging) {
       result.doubts.push_back(message("the nipple stands ", std::lround(found.nipple_in_front_mm),
