@@ -197,10 +197,12 @@ std::string refusal_of(const FatContrast& contrast) {
 
 std::string refusal_of_half(const FatContrast& contrast) {
   constexpr double most_silent = 0.1, most_if_odd = 0.03, least_muscle = 0.12, odd_evidence = 0.8;
+  constexpr double silent_muscle = 0.08, most_beside_it = 0.01;  // of a fatty breast in a fat image
   // In a fat image, muscle is silent too; a wall sought in a water image has other oddities.
   const bool odd = (contrast.muscle_ratio > 0 && contrast.muscle_ratio < least_muscle) ||
                    saturation_evidence(contrast) > odd_evidence;
-  const double most = odd ? most_if_odd : most_silent;
+  const bool silent = contrast.muscle_ratio > 0 && contrast.muscle_ratio < silent_muscle;
+  const double most = silent ? most_beside_it : odd ? most_if_odd : most_silent;
   if (!(contrast.silent_share > most)) return "";
   return message("this looks like the water or the fat image of a Dixon scan alone: ",
                  std::lround(100 * contrast.silent_share),
