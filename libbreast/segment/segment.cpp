@@ -433,7 +433,7 @@ void find_wall_alone(Work& work, Images& images, Segmentation& result,
                       ": give the two images of one Dixon scan, or a T1 series as MR");
   const bool half = !refusal_of_half(result.contrast).empty();
   if (!suppressed_too || !may_be_suppressed(result.contrast))
-    throw input_error(refusal, ways_out(half));
+    throw input_error(refusal, ways_out(half, false));
   const std::string suppressed = refusal_of_reading(
       [&] { return read_suppressed(work, images, result, found, options, progress, timer); });
   if (!suppressed.empty()) throw input_error(refusal_of_both(refusal, half, suppressed, found));

@@ -14,11 +14,12 @@ std::string refusal_of_suppressed(const SuppressedFat& fat, const FatContrast& s
                  ", at most ", most_evidence, ")");
 }
 
-std::string ways_out(bool half_of_dixon) {
+std::string ways_out(bool half_of_dixon, bool by_wall) {
   return message(": give ",
                  half_of_dixon ? "the water image as MR and the fat image as --fat, " : "",
-                 "a T1 series without fat saturation as MR or beside this one (--also), the chest "
-                 "wall (--chest-wall), or --contrast fat-bright if fat is bright");
+                 "a T1 series without fat saturation as MR or beside this one (--also), ",
+                 by_wall ? "the chest wall (--chest-wall), " : "",
+                 "or --contrast fat-bright if fat is bright");
 }
 
 std::string refusal_of_both(const std::string& bright, bool half, const std::string& suppressed,
@@ -27,7 +28,7 @@ std::string refusal_of_both(const std::string& bright, bool half, const std::str
   if (half && found == DarkFat::suppressed)
     return "fat is suppressed in this scan, and " + suppressed + ways_out(false);
   return bright + "; as a scan with suppressed fat: " + suppressed +
-         ways_out(half || found == DarkFat::silent);
+         ways_out(half || found == DarkFat::silent, !half || found == DarkFat::silent);
 }
 
 }  // namespace breast

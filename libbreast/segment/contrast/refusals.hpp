@@ -13,8 +13,8 @@ namespace breast {
 std::string refusal_of_suppressed(const SuppressedFat& fat, const FatContrast& shown);
 
 /// ": give ...": what a user can do where no contrast is found that shows the wall, or if the scan may be half of a
-/// Dixon scan.
-std::string ways_out(bool half_of_dixon);
+/// Dixon scan. A chest wall serves where a scan can have suppressed fat.
+std::string ways_out(bool half_of_dixon, bool by_wall = true);
 
 /// Refuses a scan that is read neither with bright fat (why: `bright`; `half`: as it has silent parts) nor with
 /// suppressed fat (why: `suppressed`). Where muscle shows that fat is suppressed, it is not half of a Dixon scan.
