@@ -75,6 +75,7 @@ std::vector<Quantity> measures_of(const Segmentation& result) {
   add("front_left_out_percent", "extent/front_left_out_percent", result.front_left_out_percent);
   add("lateral_border_mm", "extent/lateral_border_mm", result.lateral_border_mm);
   add("nipple_depth_mm", "extent/nipple_depth_mm", result.nipple_depth_mm);
+  add("view_behind_sternum_mm", "extent/view_behind_sternum_mm", result.view_behind_sternum_mm);
   for (const StageQuality& quality : quality_of(result))
     add("quality_" + quality.stage, "quality/" + quality.stage, quality.score);
   add("roll_degrees", "roll_degrees", result.roll_degrees);

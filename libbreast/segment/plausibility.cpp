@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/error.hpp"
+#include "core/statistics/percentile.hpp"
 #include "core/units.hpp"
 #include "segment/tissue/skin_patch.hpp"
 
@@ -59,6 +60,26 @@ double flat_skin_cm2(const Work& work) {
   return std::accumulate(flat.begin(), flat.end(), 0.0) / mm2_per_cm2;
 }
 
+namespace {
+
+/// As Extents::view_behind_sternum_mm.
+double view_behind_sternum(const Work& work) {
+  const int nx = work.scan.grid.size[0], midline = work.torso.midline;
+  std::vector<double> behind;
+  for (int k = 0; k < work.scan.grid.size[2]; ++k) {
+    int farthest = midline;
+    for (int i = 0; i < nx; ++i)
+      if (work.extent.columns[std::size_t(k) * nx + i] &&
+          std::abs(i - midline) > std::abs(farthest - midline))
+        farthest = i;
+    if (farthest != midline)
+      behind.push_back(work.domain.deepest.at(farthest, k) - work.torso.cleft[k]);
+  }
+  return median(std::move(behind), 0);
+}
+
+}  // namespace
+
 Extents extents_of(const Work& work, const Vec3& nipple, Side side) {
   const Grid& grid = work.scan.grid;
   Extents found;
@@ -80,6 +101,7 @@ Extents extents_of(const Work& work, const Vec3& nipple, Side side) {
     }
   }
   found.front_left_out_percent = front > 0 ? 100 * left_out / front : 0;
+  found.view_behind_sternum_mm = view_behind_sternum(work);
   found.volume_ml = breast * grid.voxel_volume() / mm3_per_ml;
   const Vec3 at = grid.to_index(nipple);
   const int i = std::clamp(int(std::lround(at[0])), 0, grid.size[0] - 1),
@@ -94,6 +116,7 @@ std::vector<std::string> extent_doubts(const Extents& found, double greatest_dep
   constexpr double least_volume = 50, most_volume = 3500;      // ml
   constexpr double least_border = 70, most_border = 230;       // mm
   constexpr double least_depth = 15, least_share_depth = 0.6;  // mm, of the greatest depth
+  constexpr double least_view = 30;  // mm: 37 and more on whole breasts, 24 and less on cut ones
   std::vector<std::string> doubts;
   const auto outside = [](double value, double least, double most) {
     return !(value >= least && value <= most);
@@ -103,6 +126,13 @@ std::vector<std::string> extent_doubts(const Extents& found, double greatest_dep
                              " % of the body in front of the skin over the sternum is not "
                              "labelled breast (usually below ",
                              std::lround(most_left_out), " %): see --overlay"));
+  }
+  if (found.view_behind_sternum_mm < least_view) {
+    doubts.push_back(message(
+        "extent doubtful: the field of view ends ", std::lround(found.view_behind_sternum_mm),
+        " mm behind the skin over the sternum (usually at least ", least_view,
+        "), where it may cut the breast at its side: volume and wall are those "
+        "of the visible part; see --overlay"));
   }
   if (outside(found.volume_ml, least_volume, most_volume)) {
     doubts.push_back(message("extent doubtful: a breast of ", std::lround(found.volume_ml), " ml (",

@@ -24,6 +24,9 @@ struct Extents {
   double lateral_border_mm = 0;   ///< farthest column on the wall from the midline
   double nipple_depth_mm = 0;     ///< from the nipple back to the wall
   double nipple_in_front_mm = 0;  ///< distance of the nipple in front of the skin over the sternum
+  /// How far the view goes on behind the skin over the sternum, or the wall is sought, where the breast reaches farthest
+  /// aside: median of its slices. A view that ends before the ribs turn to the side cuts the breast there.
+  double view_behind_sternum_mm = 0;
   double volume_ml = 0;
 };
 Extents extents_of(const Work& work, const Vec3& nipple, Side side);

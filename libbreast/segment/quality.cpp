@@ -52,6 +52,7 @@ std::vector<StageQuality> quality_of(const Segmentation& result) {
     extent.of("front_left_out_percent", result.front_left_out_percent, 5, 12)
         .of("nipple_depth_mm", result.nipple_depth_mm, 0.8 * result.greatest_thickness,
             0.6 * result.greatest_thickness)
+        .of("view_behind_sternum_mm", result.view_behind_sternum_mm, 36, 30)
         .of("nipple_from_extreme_mm", result.nipple_from_extreme, 5, 10);
   }
   // Of a few specks two methods find different ones.

@@ -16,6 +16,7 @@
 #include "segment/body/side.hpp"
 #include "segment/contrast/dixon.hpp"
 #include "segment/contrast/evidence.hpp"
+#include "segment/contrast/refusals.hpp"
 #include "segment/contrast/second_scan.hpp"
 #include "segment/contrast/suppressed.hpp"
 #include "segment/grid/filters.hpp"
@@ -188,6 +189,7 @@ void doubt_extent(Segmentation& result, const Extents& found, const SegmentOptio
   result.front_left_out_percent = found.front_left_out_percent;
   result.lateral_border_mm = found.lateral_border_mm;
   result.nipple_depth_mm = found.nipple_depth_mm;
+  result.view_behind_sternum_mm = found.view_behind_sternum_mm;
   if (options.posture != Posture::prone) {
     if (found.nipple_in_front_mm > hanging) {
       result.doubts.push_back(message("the nipple stands ", std::lround(found.nipple_in_front_mm),
@@ -317,14 +319,15 @@ std::string find_contrast(Work& work, Segmentation& result, const SegmentOptions
   return refusal.empty() ? refusal_of(result.contrast) : refusal;
 }
 
-/// The reason for a refusal that `read` returns or throws; empty if the scan can be read.
+/// The reason for a refusal that `read` returns or throws, without its ways out; empty if the scan can be read.
 template <typename Read>
 std::string refusal_of_reading(Read&& read) {
   try {
     return read();
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::input) throw;
-    return error.what();
+    const std::string reason = error.what();
+    return reason.substr(0, reason.find(": give "));
   }
 }
 
@@ -367,28 +370,16 @@ Body body_of_dark_fat(Volume<float> scan, double air_level, const SegmentOptions
   return find_body(scan, options.side, options.posture);
 }
 
-/// Why the wall of a scan with suppressed fat cannot be taken from it; empty if it can.
-std::string refusal_of_suppressed(const SuppressedFat& fat, const FatContrast& shown) {
-  constexpr std::string_view ways_out =
-      "give the chest wall (--chest-wall), or a second scan of the same examination that shows it, "
-      "such as T1 without fat suppression (--also)";
-  std::string reason = refusal_of(fat);
-  const double evidence = saturation_evidence(shown);
-  if (reason.empty() && evidence > most_evidence)
-    reason = message("what is dark does not lie as fat does (evidence ", format_fixed(evidence, 1),
-                     ", at most ", most_evidence, ")");
-  return reason.empty() ? "" : message(reason, ": ", ways_out);
-}
-
-/// Reads a scan with suppressed fat. Returns why its wall cannot be seen; empty if it can, or if the
-/// user gives one.
-std::string read_suppressed(Work& work, Images& images, Segmentation& result,
+/// Reads a scan with suppressed fat, which is `found` to be dark. Returns why its wall cannot be seen; empty if it can,
+/// or if the user gives one.
+std::string read_suppressed(Work& work, Images& images, Segmentation& result, DarkFat& found,
                             const SegmentOptions& options, Progress& progress, Timer& timer) {
   const Volume<float> scan = work.scan;
   work.body = body_of_dark_fat(scan, work.body.air_level, options);
   frame_body(work, options);
   SuppressedFat fat = find_suppressed_wall(work, progress, timer);
   const Timer::Scope phase(timer, "bias");
+  found = dark_fat(fat);
   result.kind = Contrast::fat_suppressed;
   result.muscle_over_fat = fat.muscle.median;
   result.muscle_over_fat_low = fat.muscle.low;
@@ -418,12 +409,14 @@ std::string read_suppressed(Work& work, Images& images, Segmentation& result,
 /// suppressed fat, unless the user says what it is.
 void find_wall_alone(Work& work, Images& images, Segmentation& result,
                      const SegmentOptions& options, Progress& progress, Timer& timer) {
+  DarkFat found = DarkFat::unknown;
   if (options.contrast == Contrast::fat_suppressed) {
     const FatContrast below_skin = contrast_below_skin(work);
     if (!corrected_by_hand(options) && !may_be_suppressed(below_skin))
-      throw input_error(refusal_of_skin(below_skin));
-    const std::string refusal = read_suppressed(work, images, result, options, progress, timer);
-    if (!refusal.empty()) throw input_error(refusal);
+      throw input_error(refusal_of_skin(below_skin), ways_out(false));
+    const std::string refusal =
+        read_suppressed(work, images, result, found, options, progress, timer);
+    if (!refusal.empty()) throw input_error(refusal, ways_out(found == DarkFat::silent));
     return;
   }
   const bool suppressed_too =
@@ -435,13 +428,15 @@ void find_wall_alone(Work& work, Images& images, Segmentation& result,
     result.doubts.push_back("accepted as requested: " + refusal);
     return;
   }
+  if (options.fat)
+    throw input_error("the sum of water and fat: ", refusal,
+                      ": give the two images of one Dixon scan, or a T1 series as MR");
+  const bool half = !refusal_of_half(result.contrast).empty();
   if (!suppressed_too || !may_be_suppressed(result.contrast))
-    throw input_error(options.fat ? "the sum of water and fat: " : "", refusal);
+    throw input_error(refusal, ways_out(half, false));
   const std::string suppressed = refusal_of_reading(
-      [&] { return read_suppressed(work, images, result, options, progress, timer); });
-  if (suppressed == refusal) throw input_error(refusal);
-  if (!suppressed.empty())
-    throw input_error(refusal, "; as a scan with suppressed fat: ", suppressed);
+      [&] { return read_suppressed(work, images, result, found, options, progress, timer); });
+  if (!suppressed.empty()) throw input_error(refusal_of_both(refusal, half, suppressed, found));
 }
 
 /// Bias and wall of the scan that shows them: the first, or else the second.
@@ -459,7 +454,9 @@ void find_wall_on_either(Work& work, Images& images, Segmentation& result,
   alone = {};
   take_second_scan(work, images, result, options);
   const std::string refusal = find_contrast(work, result, options, progress, timer);
-  if (!refusal.empty()) throw input_error("MR: ", unseen, "; --also: ", refusal);
+  if (!refusal.empty())
+    throw input_error("MR: ", unseen, "; --also: ", refusal,
+                      ": give a second scan in which fat is bright");
   // The wall is as uncertain as its place beside the skin of the other scan.
   for (double& sigma : work.wall.sigma.depth) sigma = std::hypot(sigma, result.also.residual_mm);
   const SecondScanUse& also = result.also;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Of docs/validation/geometry.md: the sides of a cohort (COHORT=DIR) in other voxels, positions and qualities, from the scan to the
+# Of docs/validation/same-side.md: the sides of a cohort (COHORT=DIR) in other voxels, positions and qualities, from the scan to the
 # supine shape, and how far the results move; then how well the scores of segment show the errors of all of them whose tissue is known.
 CHANGED := $(RUNS)/changed
 changed_tool := $(BIN)/changed_scan

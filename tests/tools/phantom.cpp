@@ -140,6 +140,21 @@ TEST(PhantomTool, ADixonScanIsSegmentedAndItsHalvesAreNot) {
   }
 }
 
+// Skin that no voxel resolves cannot tell suppressed fat from bright fat.
+TEST(PhantomTool, SuppressedFatInWideVoxelsIsNotTakenForBright) {
+  ScratchFolder folder;
+  ToolResult said = run_line(
+      "phantom s.nrrd --preset small --coarse 3 --contrast fat-suppressed --muscle-over-fat 1.4 "
+      "--quiet",
+      folder.path());
+  ASSERT_EQ(said.exit_code, 0) << said.err;
+  said = run_line("segment s.nrrd l.vtkhdf --side left --quiet", folder.path());
+  EXPECT_EQ(said.exit_code, 2);
+  EXPECT_EQ(said.error_lines(), 1) << said.err;
+  EXPECT_NE(said.err.find("fat is saturated"), std::string::npos) << said.err;
+  EXPECT_EQ(said.err.find(": give "), said.err.rfind(": give ")) << said.err;
+}
+
 TEST(PhantomTool, RefusesBadUsageBeforeItStarts) {
   ScratchFolder folder;
   const std::vector<std::vector<std::string>> wrong = {

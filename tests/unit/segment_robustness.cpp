@@ -203,6 +203,7 @@ TEST(SegmentRobustness, ImplausibleExtentIsDoubted) {
     const Extents found{.front_left_out_percent = left_out,
                         .lateral_border_mm = result.lateral_border_mm,
                         .nipple_depth_mm = result.nipple_depth_mm,
+                        .view_behind_sternum_mm = result.view_behind_sternum_mm,
                         .volume_ml = 500};
     return extent_doubts(found, result.greatest_thickness).size();
   };
@@ -213,6 +214,24 @@ TEST(SegmentRobustness, ImplausibleExtentIsDoubted) {
   wrong.lateral_border_mm = 40;
   wrong.nipple_depth_mm = 0.4 * base.greatest_thickness;
   EXPECT_EQ(doubts_of(wrong, base.front_left_out_percent), 2u);
+}
+
+TEST(SegmentRobustness, AViewThatEndsSoonBehindTheSternumIsDoubted) {
+  const auto is_doubted = [](const Segmentation& result) {
+    return std::any_of(result.doubts.begin(), result.doubts.end(), [](const std::string& doubt) {
+      return doubt.find("extent doubtful: the field of view ends") == 0;
+    });
+  };
+  EXPECT_FALSE(is_doubted(patient().base));
+  const Volume<float>& scan = patient().scan;
+  const Grid& grid = scan.grid;
+  const double end =
+      patient().truth.wall(0, 0) + 15;  // y; the skin lies 10 mm in front of the wall
+  const Segmentation cut = run(testing::cropped(
+      scan, {0, 0, 0},
+      {grid.size[0] - 1, int((end - grid.origin[1]) / grid.spacing[1]), grid.size[2] - 1}));
+  EXPECT_NEAR(cut.view_behind_sternum_mm, 25, 4);
+  EXPECT_TRUE(is_doubted(cut));
 }
 
 TEST(SegmentRobustness, ThickSlices) {

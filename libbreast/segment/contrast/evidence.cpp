@@ -144,6 +144,8 @@ FatContrast contrast_below_skin(const Work& work, double behind_sternum) {
   }
   contrast.skin_to_subcutis = percentile(std::move(skin), 0.9, 0);
   contrast.silent_share = silent_share(work);
+  constexpr double too_wide = 2.2;  // mm, beside skin of 0.5 to 2
+  contrast.skin_resolved = 0.5 * (grid.spacing[0] + grid.spacing[1]) < too_wide;
   return contrast;
 }
 
@@ -163,14 +165,15 @@ void complete_contrast(FatContrast& contrast, const Work& work, Side side) {
 
 double saturation_evidence(const FatContrast& contrast) {
   // Muscle, noise, bright skin, a deep sternum (breasts that touch in front of it) and a wall that is
-  // hard to see each have other causes and never refuse a scan alone; fat darker
-  // than a third of what surrounds it has none. Behind a wall sought in saturated fat there may be
+  // hard to see each have other causes and never refuse a scan alone (a deep sternum does where the
+  // skin cannot speak against it); fat darker than a third of what surrounds it has none. Behind a wall sought in saturated fat there may be
   // lung. A ratio of 0 has not been measured.
   const double muscle = contrast.muscle_ratio;
   const double dark_muscle = muscle > 0 ? grade(muscle, 0.15, 0.08, 1) : 0;
   return grade(contrast.skin_to_subcutis, 1.14, 1.7, 1) + grade(contrast.fat_cv, 0.086, 0.10, 1) +
          std::max(grade(muscle, 0.45, 0.59, 1), dark_muscle) +
-         grade(contrast.subcutaneous, 0.5, 0.39, 2) + grade(contrast.sternal_thickness, 22, 28, 1) +
+         grade(contrast.subcutaneous, 0.5, 0.39, 2) +
+         grade(contrast.sternal_thickness, 22, 28, contrast.skin_resolved ? 1 : 1.2) +
          grade(contrast.wall_seen, 0.58, 0.34, 1);
 }
 
@@ -189,24 +192,22 @@ std::string refusal_of(const FatContrast& contrast) {
       std::lround(100 * contrast.wall_seen), " % of the columns (above 58), ",
       std::lround(contrast.sternal_thickness),
       " mm behind the sternum's skin (below 22): evidence ", format_fixed(evidence, 1),
-      ", at most ", most_evidence,
-      " accepted. Give the T1 series without fat saturation, as MR or beside this one as --also, or "
-      "--contrast fat-bright if fat is bright");
+      ", at most ", most_evidence, " accepted");
 }
 
 std::string refusal_of_half(const FatContrast& contrast) {
   constexpr double most_silent = 0.1, most_if_odd = 0.03, least_muscle = 0.12, odd_evidence = 0.8;
+  constexpr double silent_muscle = 0.08, most_beside_it = 0.01;  // of a fatty breast in a fat image
   // In a fat image, muscle is silent too; a wall sought in a water image has other oddities.
   const bool odd = (contrast.muscle_ratio > 0 && contrast.muscle_ratio < least_muscle) ||
                    saturation_evidence(contrast) > odd_evidence;
-  const double most = odd ? most_if_odd : most_silent;
+  const bool silent = contrast.muscle_ratio > 0 && contrast.muscle_ratio < silent_muscle;
+  const double most = silent ? most_beside_it : odd ? most_if_odd : most_silent;
   if (!(contrast.silent_share > most)) return "";
   return message("this looks like the water or the fat image of a Dixon scan alone: ",
                  std::lround(100 * contrast.silent_share),
                  " % of the breast has less than 15 % of the brightness around it (at most ",
-                 std::lround(100 * most),
-                 " %), as only one of the two gives a signal. Give the water image as MR and the "
-                 "fat image as --fat, or say that fat is bright (--contrast fat-bright)");
+                 std::lround(100 * most), " %), as only one of the two gives a signal");
 }
 
 }  // namespace breast

@@ -27,6 +27,7 @@ struct FatContrast {
   /// brightness within 25 mm: fat in a water image, all else in a fat image. What an implant may be
   /// (a ball of 15 mm fits into it) does not count.
   double silent_share = 0;
+  bool skin_resolved = true;  ///< voxels are so small that the skin's brightness says anything
 };
 
 /// Computes the quantities that only need the scan and the body, from skin at most
@@ -42,11 +43,11 @@ void complete_contrast(FatContrast& contrast, const Work& work, Side side);
 double saturation_evidence(const FatContrast& contrast);
 constexpr double most_evidence = 1.15;
 
-/// One sentence that states why a scan is refused because of its contrast; empty if fat is bright.
+/// States why a scan is refused because of its contrast, without the ways out; empty if fat is bright.
 std::string refusal_of(const FatContrast& contrast);
 
-/// One sentence that states why a scan is taken for the water or the fat image of a Dixon scan
-/// alone; empty if it is none.
+/// States why a scan is taken for the water or the fat image of a Dixon scan alone, without the ways out; empty if it
+/// is none.
 std::string refusal_of_half(const FatContrast& contrast);
 
 }  // namespace breast

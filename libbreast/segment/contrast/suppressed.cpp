@@ -306,11 +306,9 @@ bool may_be_suppressed(const FatContrast& contrast) {
 }
 
 std::string refusal_of_skin(const FatContrast& contrast) {
-  return message(
-      "the skin, which holds water, is ", format_fixed(contrast.skin_to_subcutis, 2),
-      " times as bright as the tissue below it (at least ", darkest_skin,
-      " where suppressed fat is told from water): give the chest wall (--chest-wall), or "
-      "a second scan of the same examination that shows it (--also)");
+  return message("the skin, which holds water, is ", format_fixed(contrast.skin_to_subcutis, 2),
+                 " times as bright as the tissue below it (at least ", darkest_skin,
+                 " where suppressed fat is told from water)");
 }
 
 namespace {
@@ -400,19 +398,27 @@ void show_gland(Work& work, const Volume<float>& scan, Images& images, Suppresse
 
 namespace {
 
+constexpr double least_over_fat = 1.2, most_over_fat = 4.5;
+
 std::string refusal_of_muscle(const MuscleOverFat& muscle) {
-  constexpr double least = 1.2, least_in_patches = 1.0, most = 4.5;
-  if (muscle.median > most)
-    return message("muscle is ", format_fixed(muscle.median, 1),
-                   " times as bright as fat (at most ", most,
+  constexpr double least_in_patches = 1.0;
+  if (muscle.median > most_over_fat)
+    return message("muscle is ", format_fixed(muscle.median, 1), " times as bright as fat (",
+                   least_over_fat, " to ", most_over_fat,
                    " where fat is suppressed), as in the water image of a Dixon scan alone");
-  if (muscle.median >= least && muscle.low >= least_in_patches) return "";
+  if (muscle.median >= least_over_fat && muscle.low >= least_in_patches) return "";
   return message("muscle is ", format_fixed(muscle.median, 2), " times as bright as fat (at least ",
-                 least, " needed to see the chest wall), ", format_fixed(muscle.low, 2),
+                 least_over_fat, " needed to see the chest wall), ", format_fixed(muscle.low, 2),
                  " in the twentieth of places where least (at least ", least_in_patches, ")");
 }
 
 }  // namespace
+
+DarkFat dark_fat(const SuppressedFat& fat) {
+  if (fat.muscle.median > most_over_fat) return DarkFat::silent;
+  const bool measured = fat.muscle.median >= least_over_fat && fat.near_failed <= most_near_failed;
+  return measured ? DarkFat::suppressed : DarkFat::unknown;
+}
 
 std::string refusal_of(const SuppressedFat& fat) {
   const std::string muscle = refusal_of_muscle(fat.muscle);

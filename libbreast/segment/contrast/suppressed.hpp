@@ -45,7 +45,13 @@ SuppressedFat find_suppressed_wall(Work& work, Progress& progress, Timer& timer)
 /// whose working scan was `scan`, and in `images`, whose tissue becomes its outline.
 void show_gland(Work& work, const Volume<float>& scan, Images& images, SuppressedFat& fat);
 
-/// States why the wall cannot be taken from a scan with suppressed fat; empty if it can. Where
+/// What muscle shows a scan to be in which fat is not bright: fat is suppressed, or does not show at all, as in the water
+/// image of a Dixon scan, where muscle is more than 4.5 times as bright. Unknown where muscle is not brighter than fat,
+/// or nothing is left in which it could be measured.
+enum class DarkFat { unknown, suppressed, silent };
+DarkFat dark_fat(const SuppressedFat& fat);
+
+/// States why the wall cannot be taken from a scan with suppressed fat, without the ways out; empty if it can. Where
 /// muscle is less than 1.2 times as bright as fat, or less bright than fat in some place, the
 /// errors of the wall grow from below one millimetre to centimetres while its confidence stays.
 /// More than 4.5 times, nothing but water is left, which suppression does not reach. Where fat is not
