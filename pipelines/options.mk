@@ -93,8 +93,9 @@ slopes_options = $(its_prone) $(its_model) --parameters $(its_slopes)
 slopes_settings = $(BIN)/sensitivity $(slopes_options)
 
 # Options of every program: its report and its share of the cores. Where all others wait, a stage has all (but not in a cohort).
-share = --threads $$($(PIPELINES)/threads.sh)
-alone = --threads $$($(PIPELINES)/threads.sh $(if $(filter 0,$(MAKELEVEL)),alone))
+jobs = $(or $(patsubst -j%,%,$(filter -j%,$(MAKEFLAGS))),1)
+share = --threads $$((threads = $$(nproc) / $(jobs), threads > 0 ? threads : 1))
+alone = $(if $(filter 0,$(MAKELEVEL)),--threads $$(nproc),$(share))
 common = --report $(basename $@).json $(share)
 common_alone = --report $(basename $@).json $(alone)
 # The report of a stage whose file has another name.
