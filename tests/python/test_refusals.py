@@ -127,11 +127,11 @@ class OtherFiles(unittest.TestCase):
             content = (small_run.folder() / name).read_bytes()
             at = content.index(b"binary", len(content) // 2) if name == "cc.vti" else len(content) // 2
             self.refused(name, content[: at + 120] + b"A" + content[at + 121 :], "damaged")
-            self.refused(name, content[: len(content) // 2], "no XML|damaged")
+            self.refused(name, content[: len(content) // 2], "truncated|damaged")
         from breast.curves import read_curves
         with self.assertRaisesRegex(breast.BreastError, "must be 'curves/1'"):
             read_curves(small_run.folder() / "points.vtp")
-        self.refused("x.vti", b'<!DOCTYPE a [<!ENTITY b "c">]><VTKFile/>', "entities")
+        self.refused("x.vti", b'<!DOCTYPE a [<!ENTITY b "c">]><VTKFile/>', "not of type ImageData")
 
     def test_scans(self) -> None:
         nrrd = (small_run.folder() / "small-scan.nrrd").read_bytes()
