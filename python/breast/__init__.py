@@ -33,7 +33,7 @@ _MODULES = {
     "lookup": ["Lookup"],
     "mammogram": ["Mammogram"],
     "markups": ["Markup"],
-    "records": ["Contact", "Friction", "Model", "Plate", "Solve"],
+    "records": ["Contact", "Model", "Plate", "Solve"],
     "reports": ["read_report"],
     "run": ["Run"],
     "segmentation": ["Segmentation"],

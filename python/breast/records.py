@@ -74,25 +74,6 @@ class Plate:
 
 
 @dataclass(frozen=True)
-class Friction:
-    """The n nodes that friction of a plate holds.
-
-    Attributes:
-        node: (n) node numbers.
-        plate: (n) 0 paddle or 1 detector.
-        anchor: (n, 3) where the node is anchored, LPS mm.
-        bound: (n) the largest tangential force, µN.
-        stick: (n) stiffness of the hold, µN/mm.
-    """
-
-    node: np.ndarray
-    plate: np.ndarray
-    anchor: np.ndarray
-    bound: np.ndarray
-    stick: np.ndarray
-
-
-@dataclass(frozen=True)
 class Contact:
     """A compression between two plates.
 
@@ -108,7 +89,6 @@ class Contact:
         paddle_share: fraction of any further closing that the paddle does.
         surface_stiffness: of the plates against faces, Pa/mm; 0 where nodes touch exactly.
         plates: by name.
-        friction: what friction holds, or None.
         path: columns thickness_mm, force_N (paddle) and detector_N along the compression.
     """
 
@@ -125,7 +105,6 @@ class Contact:
     paddle_share: float
     surface_stiffness: float
     plates: dict[str, Plate]
-    friction: Friction | None
     path: dict[str, np.ndarray]
 
 
@@ -160,7 +139,7 @@ def read_contact(document: Document) -> Contact | None:
     return Contact(
         document.text(f"{group}@view"), number("angle_deg"), number("turn_deg"), number("lean_deg"), number("bend_deg"),
         number("thickness_mm"), number("initial_thickness_mm"), number("reduction_percent"), number("standoff_mm"),
-        number("ends_image") != 0, number("paddle_share"), number("surface_stiffness"), _plates(document), _friction(document),
+        number("ends_image") != 0, number("paddle_share"), number("surface_stiffness"), _plates(document),
         {name: document.numbers(f"{group}/path_{name}") for name in ("thickness_mm", "force_N", "detector_N")})
 
 
@@ -169,10 +148,3 @@ def _plates(document: Document) -> dict[str, Plate]:
     names = document.texts(f"{group}/name")
     columns = [document.numbers(f"{group}/{part.name}") for part in fields(Plate)[1:]]
     return {name: Plate(name, *(column[i] if column.ndim > 1 else float(column[i]) for column in columns)) for i, name in enumerate(names)}
-
-
-def _friction(document: Document) -> Friction | None:
-    group = "/breast/contact/friction"
-    node, plate = (document.integers(f"{group}/{name}") for name in ("node", "plate"))
-    friction = Friction(node, plate, *(document.numbers(f"{group}/{name}") for name in ("anchor", "bound", "stick")))
-    return friction if len(node) else None
