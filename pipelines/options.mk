@@ -14,7 +14,7 @@ $(call said,$(shell $(BIN)/cases check $(PIPELINES) $(if $(planning),0,$$PPID) $
 content = $(foreach f,$(wildcard $(filter-out $(RUNS)/%,$1)),$(shell [ ! -f $f ] || sha256sum < $f | cut -c 1-12))
 content_MATERIALS := $(call content,$(call set_of,$(MATERIALS)))
 content_TUMOUR := $(call content,$(TUMOUR))
-$(foreach s,FAT ALSO CHEST_WALL LANDMARKS MAMMOGRAMS SUPINE,$(eval content_$s := $(call content,$(subst $(comma), ,$($s)))))
+$(foreach s,FAT ALSO CHEST_WALL LANDMARKS MAMMOGRAMS SUPINE,$(eval content_$s := $$(call content,$$(subst $$(comma), ,$$($s)))))
 
 # With landmarks in a second posture, or a supine scan of the same patient, the set MATERIALS is the prior, and the chain runs with the
 # set that `identify` finds.
