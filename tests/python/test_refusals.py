@@ -76,6 +76,14 @@ class Meshes(unittest.TestCase):
             h5["VTKHDF/CellData/tissue"][...] = 1
         self.assertTrue((breast.load(file).tissue == 1).all())
 
+    def test_an_edited_lookup_is_refused(self) -> None:
+        """No program reads it, so that nothing could check it again."""
+        file = small_run.scratch("lookup") / "lookup.h5"
+        file.write_bytes((small_run.folder() / "lookup.h5").read_bytes())
+        with h5py.File(file, "r+") as h5:
+            h5["breast/lookup/depth_mm"][...] = 1
+        self.refused(file, "was changed after match-lookup wrote it; make it with match-lookup")
+
     def test_bytes_that_changed_are_refused_by_the_seal(self) -> None:
         content = (small_run.folder() / "mesh.vtkhdf").read_bytes()
         file = small_run.scratch("seal") / "mesh.vtkhdf"
