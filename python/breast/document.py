@@ -41,13 +41,19 @@ class Document:
             raise self.refuse(f"{'attribute' if '@' in path else 'dataset'} {path} is missing")
         return values[path]
 
+    def _of_type(self, path: str, kind: type) -> np.ndarray:
+        try:
+            return read_only(self._at(path).astype(kind))
+        except ValueError:
+            raise self.refuse(f"{path} holds no numbers") from None
+
     def numbers(self, path: str) -> np.ndarray:
         """Floating-point numbers of a dataset or an attribute as float64."""
-        return read_only(self._at(path).astype(np.float64))
+        return self._of_type(path, np.float64)
 
     def integers(self, path: str) -> np.ndarray:
         """Integers of a dataset or an attribute as int64."""
-        return read_only(self._at(path).astype(np.int64))
+        return self._of_type(path, np.int64)
 
     def stored(self, path: str) -> np.ndarray:
         """A dataset in the type of the file, as bytes of codes and float32 of fractions."""

@@ -101,11 +101,11 @@ class Geometry:
 def read_geometry(file: str | os.PathLike[str]) -> Geometry:
     """A geometry (schema geometry/1). Raises BreastError, one line, for whatever the programs refuse."""
     doc = read_document(file, "geometry/1")
-    group, border = "/breast/hermite", "/breast/hermite/rim/border"
+    group, border, points = "/breast/hermite", "/breast/hermite/rim/border", doc.numbers("/VTKHDF/Points")
     fit = {name: doc.number(f"{group}@fit_{name}_mm") for name in ("mean", "p95", "max")}
     return Geometry(doc.file, _sheet(doc, "skin"), _sheet(doc, "wall"), doc.numbers(f"{group}/rim/skin"), doc.numbers(f"{group}/rim/wall"),
                     doc.stored(f"{group}/rim/end"), doc.stored(border) if doc.has(border) else np.zeros(0, np.uint8),
-                    doc.numbers(f"{group}@nipple"), doc.number(f"{group}@skin_thickness"), fit, doc.numbers("/VTKHDF/Points"), _quads(doc),
+                    doc.numbers(f"{group}@nipple"), doc.number(f"{group}@skin_thickness"), fit, points, _quads(doc, len(points)),
                     doc.stored("/VTKHDF/CellData/part"), read_side(doc), read_history(doc))
 
 
@@ -113,7 +113,11 @@ def _sheet(doc: Document, name: str) -> Sheet:
     return Sheet(*(doc.numbers(f"/breast/hermite/{name}/{part.name}") for part in fields(Sheet)))
 
 
-def _quads(doc: Document) -> np.ndarray:
+def _quads(doc: Document, points: int) -> np.ndarray:
+    # No program reads the faces, which are there to be looked at.
     ids, offsets = doc.integers("/VTKHDF/Connectivity"), doc.integers("/VTKHDF/Offsets")
-    column = np.minimum(np.arange(4), np.diff(offsets)[:, None] - 1)
+    corners = np.diff(offsets)
+    if not len(corners) or not np.isin(corners, (3, 4)).all() or offsets[-1] != len(ids) or ids.min() < 0 or ids.max() >= points:
+        raise doc.refuse("/VTKHDF/Connectivity and Offsets do not give each face 3 or 4 of the points")
+    column = np.minimum(np.arange(4), corners[:, None] - 1)
     return ids[offsets[:-1, None] + column]

@@ -14,7 +14,8 @@ from .errors import BreastError, Failed
 def program(name: str) -> Path:
     """A program: beside the running one, or that of the installation or of the build to which this package belongs. Raises Failed."""
     here = Path(__file__).resolve()
-    folders = [Path(sys.argv[0]).resolve().parent, *(above / "libexec/breast" for above in here.parents), here.parents[2] / "build/release/bin"]
+    folders = [Path(sys.argv[0]).resolve().parent, *(above / "libexec/breast" for above in here.parents),
+               here.parents[2] / "build/release/bin"]
     found = next((folder / name for folder in folders if os.access(folder / name, os.X_OK)), None)
     if found is None:
         raise Failed(f"the program {name} is not installed", here.parent, "install the programs with the package, or build them: make -f "

@@ -31,7 +31,8 @@ def read_state(file: str | os.PathLike[str]) -> State:
         hexahedra, doc.has(_ELEMENT_NUMBER), _numbers(doc, _ELEMENT_NUMBER, len(hexahedra)), _numbers(doc, _NODE_NUMBER, len(points)),
         doc.stored(_CELL + "tissue"), _arrays(doc, _POINT, _SHAPES), _arrays(doc, _CELL, ("tissue",)),
         {name: doc.integers(f"{sets}{name}_faces") for name in _FACE_SETS},
-        {name: doc.integers(f"{sets}{name}_nodes") for name in _FACE_SETS} | {name: doc.integers(sets + name) for name in ("tumour", "nipple")},
+        {name: doc.integers(f"{sets}{name}_nodes") for name in _FACE_SETS} |
+        {name: doc.integers(sets + name) for name in ("tumour", "nipple")},
         _landmarks(doc), read_side(doc), doc.numbers("/breast@gravity"),
         (doc.text("/breast/template@name"), tuple(map(int, doc.integers("/breast/template@size")))), doc.text("/breast/skin@model"),
         doc.numbers("/breast/skin/thickness"), read_model(doc), read_solve(doc), read_contact(doc), read_history(doc),

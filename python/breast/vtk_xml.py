@@ -80,7 +80,9 @@ class VtkXml:
     def cells(self, kind: str) -> list[np.ndarray]:
         """Point numbers of each cell of Verts, Lines, Polys or Cells."""
         cells = getattr(self.data, f"Get{kind}")()
-        return np.split(vtk_array(cells.GetConnectivityArray()), vtk_array(cells.GetOffsetsArray())[1:-1]) if cells.GetNumberOfCells() else []
+        if not cells.GetNumberOfCells():
+            return []
+        return np.split(vtk_array(cells.GetConnectivityArray()), vtk_array(cells.GetOffsetsArray())[1:-1])
 
 
 def vtk_array(array: Any) -> Any:
