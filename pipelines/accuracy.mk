@@ -9,10 +9,10 @@ ifneq ($(planning),)
 # A plan solves nothing: it shows the mesh chosen last, or the default if none has been chosen.
 -include $(wildcard $(RUN)/accuracy.mk)
 else
-$(RUN)/accuracy.mk: $(RUN)/labels.vtkhdf $(RUN)/geometry.vtkhdf $(BIN)/tabulate \
+$(RUN)/accuracy.mk: $(RUN)/labels.vtkhdf $(RUN)/geometry.vtkhdf \
   $(HEXMESH) $(BACKWARD) $(FORWARD) $(call changed,accuracy)
 	@rm -f $(accuracy_record)
-	+$(BIN)/cases ladder $(RUN) $(ACCURACY) '$(strip $(ACCURACY_LADDER))' '$(tabulate)' --quiet -- $(MAKE) -f $(PIPELINE) ACCURACY=
+	+$(BIN)/cases ladder $(RUN) $(ACCURACY) '$(strip $(ACCURACY_LADDER))' --quiet -- $(MAKE) -f $(PIPELINE) ACCURACY=
 	@echo '$(strip $(accuracy_settings))' > $(accuracy_record)
 include $(RUN)/accuracy.mk
 endif

@@ -14,7 +14,7 @@ $(call said,$(shell $(BIN)/cases check $(PIPELINES) $(if $(planning),0,$$PPID) $
 content = $(foreach f,$(wildcard $(filter-out $(RUNS)/%,$1)),$(shell [ ! -f $f ] || sha256sum < $f | cut -c 1-12))
 content_MATERIALS := $(call content,$(call set_of,$(MATERIALS)))
 content_TUMOUR := $(call content,$(TUMOUR))
-$(foreach s,FAT ALSO CHEST_WALL LANDMARKS MAMMOGRAMS SUPINE,$(eval content_$s := $(call content,$(subst $(comma), ,$($s)))))
+$(foreach s,FAT ALSO CHEST_WALL LANDMARKS MAMMOGRAMS SUPINE,$(eval content_$s := $$(call content,$$(subst $$(comma), ,$$($s)))))
 
 # With landmarks in a second posture, or a supine scan of the same patient, the set MATERIALS is the prior, and the chain runs with the
 # set that `identify` finds.
@@ -93,8 +93,9 @@ slopes_options = $(its_prone) $(its_model) --parameters $(its_slopes)
 slopes_settings = $(BIN)/sensitivity $(slopes_options)
 
 # Options of every program: its report and its share of the cores. Where all others wait, a stage has all (but not in a cohort).
-share = --threads $$($(PIPELINES)/threads.sh)
-alone = --threads $$($(PIPELINES)/threads.sh $(if $(filter 0,$(MAKELEVEL)),alone))
+jobs = $(or $(patsubst -j%,%,$(filter -j%,$(MAKEFLAGS))),1)
+share = --threads $$((threads = $$(nproc) / $(jobs), threads > 0 ? threads : 1))
+alone = $(if $(filter 0,$(MAKELEVEL)),--threads $$(nproc),$(share))
 common = --report $(basename $@).json $(share)
 common_alone = --report $(basename $@).json $(alone)
 # The report of a stage whose file has another name.

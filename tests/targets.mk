@@ -26,10 +26,10 @@ release-check: check faults fields python-pages full-disk whole-tools clean-root
 	tests/fuzz/run.sh inputs=100000
 	tests/fuzz/run.sh $(FUZZ_MINUTES)
 
+FAULT_TESTS := tools_faults tools_limits tools_hostile_names tools_hostile_texts tools_locales
 faults:
-	$(call build,programs tetrahedra tools_faults tools_limits)
-	BREAST_FAULT_ALLOCATIONS=$(FAULT_ALLOCATIONS) OPENBLAS_THREAD_TIMEOUT=4 $(BUILD)/tests/tools_faults
-	BREAST_FAULT_ALLOCATIONS=$(FAULT_ALLOCATIONS) OPENBLAS_THREAD_TIMEOUT=4 $(BUILD)/tests/tools_limits
+	$(call build,programs tetrahedra $(FAULT_TESTS))
+	for test in $(FAULT_TESTS); do BREAST_FAULT_ALLOCATIONS=$(FAULT_ALLOCATIONS) OPENBLAS_THREAD_TIMEOUT=4 $(BUILD)/tests/$$test; done
 
 # Every field of every file, damaged in four ways, for every tool that reads it.
 fields:

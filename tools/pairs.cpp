@@ -75,6 +75,8 @@ class Reader {
       return origin_of_scan(file, source.content_sha256, scan.grid);
     }
     if (name.ends_with("labels") || name == "LABELS") return kept(file, read_labels(file));
+    if (name == "geometry") return kept(file, read_geometry(file));
+    if (name == "mesh") return kept(file, read_mesh(file));
     try {
       return kept(file, read_geometry(file));
     } catch (const Error&) {
@@ -103,6 +105,10 @@ void check_files(const Choices& choices, Run& run) {
   std::vector<NamedFile> files;
   for (const std::string& word : choices.files) files.push_back(named(word));
   Reader reader(files, choices.series);
+  if (choices.tool == "all") {
+    for (const NamedFile& file : files) reader.origin(file);
+    return;
+  }
   Pairs pairs = pairs_of(choices.tool, run, choices.accept_other);
   for (const PairRule& rule : pair_rules()) {
     if (rule.tool != choices.tool) continue;
@@ -123,7 +129,9 @@ int main(int argc, char** argv) {
       "between them and what --accept-other lets differ. With --check it prints nothing and checks "
       "files by the rules of that tool instead: every pair of them that has a row on the page. A "
       "pair that does not belong together is refused with one line and exit code 2. Tools in C++ "
-      "check their files themselves; this is for programs in other languages, as render is.");
+      "check their files themselves; this is for programs in other languages, as render is. With "
+      "all instead of a tool, each file alone is read with the checks of all tools; its name is "
+      "then labels, geometry or mesh.");
   tool.word(choices.tool, "all|TOOL", "the pairs of all tools, or of one");
   tool.texts(
       choices.files, "--check", "NAME=FILE",
@@ -134,13 +142,12 @@ int main(int argc, char** argv) {
   tool.text(choices.accept_other, "--accept-other", "WHAT",
             "accept a pair that differs in this, where the page allows it");
   tool.example("pairs compress", "the pairs that compress checks");
+  tool.example("pairs all --check mesh=supine.vtkhdf", "is this a mesh that the tools read?");
   tool.example("pairs cc2mlo --check CC=cc.vtkhdf --check MLO=mlo.vtkhdf",
                "are both compressions of one breast and one model?");
   return tool.main(argc, argv, [&](Run& run) {
     const std::string rules = rules_of(choices.tool);
     if (choices.files.empty()) return run.print(pairs_page(rules));
-    if (rules.empty())
-      throw input_error("--check: name the tool in which the files meet instead of all");
     check_files(choices, run);
   });
 }

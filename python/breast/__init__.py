@@ -7,9 +7,10 @@
     run.transport([[90, -40, 10]], "imaged", "supine")  # points carried with the tissue
     run.reports["cc"]["force_N"]
 
-Needs h5py and numpy (Debian: python3-h5py), nothing else; tables become pandas DataFrames where pandas is installed, and
-State.vtk() needs python3-vtk9. Lengths are mm, masses g, times s (stress is then Pa) unless a name says otherwise; places are
-patient LPS: x to the patient's left, y to the back, z to the head. docs/python.md has examples.
+Needs h5py and numpy (Debian: python3-h5py), python3-vtk9 for .vti, .vtp, .vtu and State.vtk(), and the programs for edited files and
+for scans that are not in NRRD; tables become pandas DataFrames where pandas is installed. Lengths are mm, masses g, times s (stress is
+then Pa) unless a name says otherwise; places are patient LPS: x to the patient's left, y to the back, z to the head. docs/python.md has
+examples.
 """
 from __future__ import annotations
 
@@ -32,7 +33,7 @@ _MODULES = {
     "lookup": ["Lookup"],
     "mammogram": ["Mammogram"],
     "markups": ["Markup"],
-    "records": ["Contact", "Friction", "Model", "Plate", "Solve"],
+    "records": ["Contact", "Model", "Plate", "Solve"],
     "reports": ["read_report"],
     "run": ["Run"],
     "segmentation": ["Segmentation"],

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .vtk_xml import VtkXml, cells_of
+from .vtk_xml import VtkXml
 
 
 @dataclass(frozen=True)
@@ -35,14 +35,9 @@ def read_curves(file: str | os.PathLike[str]) -> dict[str, list[Line]]:
     schema = xml.fields().get("schema")
     if schema != ["curves/1"]:
         raise xml.refuse(f"has schema {schema or 'none'}, must be 'curves/1'")
-    points = xml.group("Points").get("Points")
-    data = {name: a for name, a in xml.group("PointData").items() if isinstance(a, np.ndarray)}
-    cells = [line for kind in ("Verts", "Lines") for line in cells_of(xml, kind)]
+    points, data = xml.points, {name: a for name, a in xml.group("PointData").items() if isinstance(a, np.ndarray)}
+    cells = [line for kind in ("Verts", "Lines") for line in xml.cells(kind)]
     names = xml.group("CellData").get("name", [str(n) for n in range(len(cells))])
-    if not isinstance(points, np.ndarray) or len(names) != len(cells):
-        raise xml.refuse(f"has {len(names)} names for {len(cells)} lines")
-    if any(len(a) != len(points) for a in data.values()) or any(c.size and c.max() >= len(points) for c in cells):
-        raise xml.refuse("its lines or arrays do not fit its points")
     lines: dict[str, list[Line]] = {}
     none = np.full(len(points), np.nan)
     uv = np.stack([data.get("u_mm", none), data.get("v_mm", none)], -1)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -101,37 +101,23 @@ class Geometry:
 def read_geometry(file: str | os.PathLike[str]) -> Geometry:
     """A geometry (schema geometry/1). Raises BreastError, one line, for whatever the programs refuse."""
     doc = read_document(file, "geometry/1")
-    side, group = read_side(doc), "/breast/hermite"
-    rim = doc.numbers(f"{group}/rim/skin", (None, 2))
-    rim_wall = doc.numbers(f"{group}/rim/wall", rim.shape)
-    if len(rim) < 32 or min(rim.min(), rim_wall.min()) < 0 or max(rim.max(), rim_wall.max()) > 1:
-        raise doc.refuse("the rim must have 32 points or more, with parameters from 0 to 1")
-    has_border = doc.has(f"{group}/rim/border")
-    border = doc.codes(f"{group}/rim/border", (len(rim),), 4) if has_border else np.zeros(0, np.uint8)
-    points = doc.places("/VTKHDF/Points")
-    quads = _quads(doc, len(points))
+    group, border, points = "/breast/hermite", "/breast/hermite/rim/border", doc.numbers("/VTKHDF/Points")
     fit = {name: doc.number(f"{group}@fit_{name}_mm") for name in ("mean", "p95", "max")}
-    return Geometry(doc.file, _sheet(doc, "skin"), _sheet(doc, "wall"), rim, rim_wall,
-                    doc.codes(f"{group}/rim/end", (len(rim),), 3),
-                    border, doc.place(f"{group}@nipple"),
-                    doc.number(f"{group}@skin_thickness"), fit, points, quads,
-                    doc.codes("/VTKHDF/CellData/part", (len(quads),), 3), side, read_history(doc))
+    return Geometry(doc.file, _sheet(doc, "skin"), _sheet(doc, "wall"), doc.numbers(f"{group}/rim/skin"), doc.numbers(f"{group}/rim/wall"),
+                    doc.stored(f"{group}/rim/end"), doc.stored(border) if doc.has(border) else np.zeros(0, np.uint8),
+                    doc.numbers(f"{group}@nipple"), doc.number(f"{group}@skin_thickness"), fit, points, _quads(doc, len(points)),
+                    doc.stored("/VTKHDF/CellData/part"), read_side(doc), read_history(doc))
 
 
 def _sheet(doc: Document, name: str) -> Sheet:
-    group = f"/breast/hermite/{name}"
-    nu, nv = doc.integer_list(f"{group}@patches", 2)
-    shape = (nv + 1, nu + 1)
-    vectors = [doc.numbers(f"{group}/{v}", (*shape, 3)) for v in ("x", "x_1", "x_2", "x_12")]
-    return Sheet(*vectors, *(doc.numbers(f"{group}/{s}", shape) for s in ("scale_1", "scale_2")))
+    return Sheet(*(doc.numbers(f"/breast/hermite/{name}/{part.name}") for part in fields(Sheet)))
 
 
 def _quads(doc: Document, points: int) -> np.ndarray:
-    doc.text("/VTKHDF@Type", ("UnstructuredGrid",))
-    ids = doc.integers("/VTKHDF/Connectivity", (None,), 0, points)
-    offsets = doc.integers("/VTKHDF/Offsets", (None,), 0, len(ids) + 1)
+    # No program reads the faces, which are there to be looked at.
+    ids, offsets = doc.integers("/VTKHDF/Connectivity"), doc.integers("/VTKHDF/Offsets")
     corners = np.diff(offsets)
-    if len(offsets) < 2 or offsets[0] != 0 or offsets[-1] != len(ids) or not np.isin(corners, (3, 4)).all():
-        raise doc.refuse("dataset /VTKHDF/Offsets must give each face 3 or 4 points")
+    if not len(corners) or not np.isin(corners, (3, 4)).all() or offsets[-1] != len(ids) or ids.min() < 0 or ids.max() >= points:
+        raise doc.refuse("/VTKHDF/Connectivity and Offsets do not give each face 3 or 4 of the points")
     column = np.minimum(np.arange(4), corners[:, None] - 1)
     return ids[offsets[:-1, None] + column]

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from .document import Document
 
 
@@ -38,23 +40,16 @@ class Command:
 
 
 def read_side(document: Document) -> str:
-    """'left' or 'right'; checks units and orientation too."""
-    document.text("/breast@units", ("mm-g-s",))
-    document.text("/breast@orientation", ("LPS",))
-    return document.text("/breast@side", ("left", "right"))
+    """'left' or 'right'."""
+    return document.text("/breast@side")
 
 
 def read_history(document: Document) -> tuple[Command, ...]:
     """Every command that led to the file, oldest first."""
     group = "/breast/history/"
-    tools = document.texts(group + "tool", (None,))
-    count = len(tools)
-    versions = document.texts(group + "version", (count,))
-    commands = document.texts(group + "command", (count,))
-    entries = document.integers(group + "input_entry", (None,), 0, max(count, 1))
-    names = document.texts(group + "input_name", (len(entries),))
-    digests = document.texts(group + "input_sha256", (len(entries),))
-    return tuple(
-        Command(tools[i], versions[i], commands[i],
-                tuple(Input(names[k], digests[k]) for k in range(len(entries)) if entries[k] == i))
-        for i in range(count))
+    tools, versions, commands, names, digests = (
+        document.texts(group + name) for name in ("tool", "version", "command", "input_name", "input_sha256"))
+    inputs = [Input(*stated) for stated in zip(names, digests)]
+    entries = document.integers(group + "input_entry")
+    return tuple(Command(*stated, tuple(inputs[k] for k in np.flatnonzero(entries == i)))
+                 for i, stated in enumerate(zip(tools, versions, commands)))

@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 
-from .document import FARTHEST_MM, Document
 from .grid import Grid
 from .hdf5 import read_document
 from .history import Command, read_history, read_side
@@ -59,39 +58,10 @@ class Labels:
 def read_labels(file: str | os.PathLike[str]) -> Labels:
     """A label volume (schema labels/1). Raises BreastError, one line, for whatever the programs refuse."""
     doc = read_document(file, "labels/1")
-    side, grid = read_side(doc), _grid(doc)
-    shape = grid.size[::-1]
-    names = doc.names("/breast/landmarks/name")
-    places = doc.places("/breast/landmarks/imaged", len(names))
-    thickness = doc.number("/breast/skin@measured_thickness")
-    if thickness < 0:
-        raise doc.refuse(f"attribute /breast/skin@measured_thickness is {thickness}, must be 0 or more")
-    known = int(doc.integer_list("/breast@midline_known", 1)[0])
-    if known not in (0, 1):
-        raise doc.refuse(f"attribute /breast@midline_known is {known}, must be 0 or 1")
-    midline = doc.number("/breast@midline")
-    if abs(midline) > FARTHEST_MM:
-        raise doc.refuse(f"attribute /breast@midline is {midline} mm, must be within {FARTHEST_MM:g}")
-    data = "/VTKHDF/PointData/"
-    return Labels(doc.file, grid, doc.codes(data + "tissue", shape, len(TISSUES)),
-                  doc.fractions(data + "fibroglandular_fraction", shape),
-                  doc.fractions(data + "chest_wall_confidence", shape), dict(zip(names, places)), side, thickness,
-                  midline if known else None, read_history(doc))
-
-
-def _grid(doc: Document) -> Grid:
-    doc.text("/VTKHDF@Type", ("ImageData",))
-    extent = doc.integer_list("/VTKHDF@WholeExtent", 6)
-    for axis in range(3):
-        if extent[2 * axis] != 0 or not 1 <= extent[2 * axis + 1] < 16384:
-            raise doc.refuse(f"attribute /VTKHDF@WholeExtent is {extent[2 * axis]} to {extent[2 * axis + 1]} along axis "
-                             f"{axis}, must be 0 to at least 1 and at most 16383")
-    spacing = doc.number_list("/VTKHDF@Spacing", 3)
-    if not ((spacing >= 0.01) & (spacing <= 50)).all():
-        raise doc.refuse(f"attribute /VTKHDF@Spacing is {spacing}, must be 0.01 to 50 mm")
-    direction = doc.number_list("/VTKHDF@Direction", 9).reshape(3, 3)
-    error = np.abs(direction.T @ direction - np.eye(3)).max()
-    if not error < 1e-3:
-        raise doc.refuse(f"attribute /VTKHDF@Direction is not orthonormal (off by {error:g}, must be below 0.001)")
-    size = (extent[1] + 1, extent[3] + 1, extent[5] + 1)
-    return Grid(size, spacing, doc.place("/VTKHDF@Origin"), direction)
+    tissue, fraction, confidence = (doc.stored(f"/VTKHDF/PointData/{name}")
+                                    for name in ("tissue", "fibroglandular_fraction", "chest_wall_confidence"))
+    grid = Grid(tissue.shape[::-1], doc.numbers("/VTKHDF@Spacing"), doc.numbers("/VTKHDF@Origin"),
+                doc.numbers("/VTKHDF@Direction").reshape(3, 3))
+    landmarks = dict(zip(doc.texts("/breast/landmarks/name"), doc.numbers("/breast/landmarks/imaged")))
+    return Labels(doc.file, grid, tissue, fraction, confidence, landmarks, read_side(doc), doc.number("/breast/skin@measured_thickness"),
+                  doc.number("/breast@midline") if doc.number("/breast@midline_known") else None, read_history(doc))

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import tempfile
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Callable
 
@@ -14,9 +16,8 @@ from .labels import read_labels
 from .lookup import read_lookup
 from .mammogram import read_mammogram
 from .markups import read_fiducials, read_markups
-from .meta_image import read_meta_image
-from .nifti import read_nifti
 from .nrrd import read_nrrd
+from .programs import done_on
 from .reports import read_report
 from .state_file import read_state
 from .tables import read_table
@@ -35,9 +36,8 @@ def _read_vtp(path: Path) -> Any:
 
 _BY_ENDING: dict[str, Callable[[Path], Any]] = {
     ".vti": read_mammogram, ".vtp": _read_vtp, ".vtu": read_xml_mesh, ".tsv": read_table, ".json": read_report,
-    ".mrk.json": read_markups, ".fcsv": read_fiducials, ".nrrd": read_nrrd, ".nhdr": read_nrrd, ".nii": read_nifti,
-    ".nii.gz": read_nifti, ".mha": read_meta_image, ".mhd": read_meta_image}
-SCAN_ENDINGS = (".nrrd", ".nhdr", ".nii", ".nii.gz", ".mha", ".mhd")
+    ".mrk.json": read_markups, ".fcsv": read_fiducials, ".nrrd": read_nrrd, ".nhdr": read_nrrd}
+_BY_ENDING |= {ending: lambda path: load_scan(path) for ending in (".nii", ".nii.gz", ".mha", ".mhd")}
 
 
 def load(path: str | os.PathLike[str]) -> Any:
@@ -71,12 +71,19 @@ def load(path: str | os.PathLike[str]) -> Any:
     raise BreastError(f"has an unknown ending; read are .vtkhdf .h5 {' '.join(_BY_ENDING)}", path)
 
 
-def load_scan(path: str | os.PathLike[str]) -> Any:
-    """A scan (Volume) from .nrrd, .nhdr, .nii, .nii.gz, .mha or .mhd. DICOM folders are not read."""
+def load_scan(path: str | os.PathLike[str], series: int = 0) -> Volume:
+    """A scan from whatever the programs read: of NRRD the file itself, of NIfTI, MetaImage and DICOM the copy that `scan` makes of it.
+
+    Args:
+        series: of a DICOM folder, by its number in `scan FOLDER --list`; 0 the best.
+    """
     path = Path(path)
-    if path.is_dir() or not path.name.lower().endswith(SCAN_ENDINGS):
-        raise BreastError("is no scan that is read here", path, "save it as .nrrd, .nii.gz or .mha (3D Slicer does)")
-    volume = load(path)
-    if not isinstance(volume, Volume):
-        raise BreastError("is a segmentation or a field, not a scan", path)
-    return volume
+    if path.name.lower().endswith((".nrrd", ".nhdr")) and not path.is_dir():
+        volume = load(path)
+        if not isinstance(volume, Volume):
+            raise BreastError("is a segmentation or a field, not a scan", path)
+        return volume
+    with tempfile.TemporaryDirectory(prefix="breast-scan-") as folder:
+        copy = Path(folder) / "scan.nrrd"
+        done_on(path, "scan", [str(path), str(copy), "--series", str(series)])
+        return replace(load_scan(copy), file=path)

@@ -61,14 +61,6 @@ def read_lookup(file: str | os.PathLike[str], back: bool = False) -> Lookup:
     """
     doc = read_document(file, "lookup/1")
     group = "/breast/lookup_back" if back else "/breast/lookup"
-    views = ("CC", "MLO", "ML")
-    pitch = doc.number(f"{group}@pitch_mm")
-    if not pitch > 0:
-        raise doc.refuse(f"attribute {group}@pitch_mm is {pitch}, must be positive")
-    status = doc.codes(f"{group}/status", (None, None), len(STATUS))
-    curve = doc.numbers(f"{group}/curve_mm", (*status.shape, None, 2))
-    along = curve.shape[:3]
-    return Lookup(doc.file, doc.text(f"{group}@from_view", views), doc.text(f"{group}@to_view", views), pitch, status,
-                  doc.numbers(f"{group}/depth_mm", status.shape), doc.numbers(f"{group}/length_mm", status.shape), curve,
-                  doc.numbers(f"{group}/deviation_mm", along), doc.numbers(f"{group}/imaged_mm", (*along, 3)),
-                  doc.texts(f"{group}/band_without", (None,)), read_side(doc), read_history(doc))
+    arrays = [doc.numbers(f"{group}/{name}") for name in ("depth_mm", "length_mm", "curve_mm", "deviation_mm", "imaged_mm")]
+    return Lookup(doc.file, doc.text(f"{group}@from_view"), doc.text(f"{group}@to_view"), doc.number(f"{group}@pitch_mm"),
+                  doc.stored(f"{group}/status"), *arrays, doc.texts(f"{group}/band_without"), read_side(doc), read_history(doc))

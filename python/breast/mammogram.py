@@ -65,34 +65,11 @@ def read_mammogram(file: str | os.PathLike[str]) -> Mammogram:
     if fields.get("schema") != ["mammogram/1"]:
         raise xml.refuse(f"has schema {fields.get('schema') or 'none'}, must be 'mammogram/1'")
 
-    def numbers(name: str, count: int) -> np.ndarray:
-        values = np.ravel(fields.get(name, []))
-        if values.dtype.kind != "f" or len(values) != count:
-            raise xml.refuse(f"field {name} must hold {count} numbers")
-        return values
+    def number(name: str) -> float:
+        return float(np.ravel(fields[name])[0])
 
-    def text(name: str, allowed: tuple[str, ...]) -> str:
-        value = fields.get(name)
-        if not isinstance(value, list) or len(value) != 1 or value[0] not in allowed:
-            raise xml.refuse(f"field {name} is {value}, must be {' or '.join(allowed)}")
-        return value[0]
-
-    try:
-        extent = [int(n) for n in xml.data.get("WholeExtent", "").split()]
-        size = (extent[3] + 1, extent[1] + 1)
-    except (ValueError, IndexError):
-        raise xml.refuse("states no WholeExtent") from None
-    images = {}
-    for name, array in xml.group("PointData").items():
-        if not isinstance(array, np.ndarray) or array.size != size[0] * size[1]:
-            raise xml.refuse(f"array {name} does not fit {size[1]} x {size[0]} pixels")
-        images[name] = array.reshape(size)
-    if not images:
-        raise xml.refuse("holds no image")
-    pixel = float(numbers("pixel", 1)[0])
-    if not pixel > 0:
-        raise xml.refuse(f"field pixel is {pixel} mm, must be positive")
-    axes = {name: numbers(name, 3) for name in ("origin", "e_u", "e_v", "n")}
-    return Mammogram(xml.file, images, text("view", ("CC", "MLO", "ML")), text("side", ("left", "right")),
-                     pixel, **axes, source_distance_mm=float(numbers("source_distance", 1)[0]),
-                     plate_edge_mm=float(numbers("plate_edge_u", 1)[0]))
+    nu, nv, _ = xml.data.GetDimensions()
+    images = {name: array.reshape(nv, nu) for name, array in xml.group("PointData").items()}
+    axes = {name: np.ravel(fields[name]) for name in ("origin", "e_u", "e_v", "n")}
+    return Mammogram(xml.file, images, fields["view"][0], fields["side"][0], number("pixel"), **axes,
+                     source_distance_mm=number("source_distance"), plate_edge_mm=number("plate_edge_u"))

@@ -74,25 +74,6 @@ class Plate:
 
 
 @dataclass(frozen=True)
-class Friction:
-    """The n nodes that friction of a plate holds.
-
-    Attributes:
-        node: (n) node numbers.
-        plate: (n) 0 paddle or 1 detector.
-        anchor: (n, 3) where the node is anchored, LPS mm.
-        bound: (n) the largest tangential force, µN.
-        stick: (n) stiffness of the hold, µN/mm.
-    """
-
-    node: np.ndarray
-    plate: np.ndarray
-    anchor: np.ndarray
-    bound: np.ndarray
-    stick: np.ndarray
-
-
-@dataclass(frozen=True)
 class Contact:
     """A compression between two plates.
 
@@ -108,7 +89,6 @@ class Contact:
         paddle_share: fraction of any further closing that the paddle does.
         surface_stiffness: of the plates against faces, Pa/mm; 0 where nodes touch exactly.
         plates: by name.
-        friction: what friction holds, or None.
         path: columns thickness_mm, force_N (paddle) and detector_N along the compression.
     """
 
@@ -125,7 +105,6 @@ class Contact:
     paddle_share: float
     surface_stiffness: float
     plates: dict[str, Plate]
-    friction: Friction | None
     path: dict[str, np.ndarray]
 
 
@@ -134,11 +113,7 @@ def read_model(document: Document) -> Model | None:
     group = "/breast/model"
     if not document.has_group(group):
         return None
-    texts = {part.name: document.text(f"{group}@{part.name}") for part in fields(Model)}
-    for name, text in texts.items():
-        if not text:
-            raise document.refuse(f"attribute {group}@{name} is empty, must state this part of the model")
-    return Model(**texts)
+    return Model(**{part.name: document.text(f"{group}@{part.name}") for part in fields(Model)})
 
 
 def read_solve(document: Document) -> Solve | None:
@@ -146,16 +121,14 @@ def read_solve(document: Document) -> Solve | None:
     group = "/breast/solve"
     if not document.has_group(group):
         return None
-    status = document.text(f"{group}@status", ("converged", "stopped_early", "not_gripped", "unstable", "not_converged"))
-    rows = len(document.integers(f"{group}/step", (None,)))
-    iterations = {name: document.integers(f"{group}/{name}", (rows,)) for name in ("step", "iteration")}
+    iterations = {name: document.integers(f"{group}/{name}") for name in ("step", "iteration")}
     for name in ("residual", "min_det_F", "max_det_F", "step_length", "seconds"):
-        iterations[name] = document.numbers(f"{group}/{name}", (rows,))
-    return Solve(status, document.text(f"{group}@reason"), iterations)
+        iterations[name] = document.numbers(f"{group}/{name}")
+    return Solve(document.text(f"{group}@status"), document.text(f"{group}@reason"), iterations)
 
 
-def read_contact(document: Document, nodes: int) -> Contact | None:
-    """The record of the compression of a mesh of that many nodes; None for a state without plates."""
+def read_contact(document: Document) -> Contact | None:
+    """The record of a compression; None for a state without plates."""
     group = "/breast/contact"
     if not document.has_group(group):
         return None
@@ -163,43 +136,15 @@ def read_contact(document: Document, nodes: int) -> Contact | None:
     def number(name: str) -> float:
         return document.number(f"{group}@{name}")
 
-    share = number("paddle_share")
-    if not 0 <= share <= 1:
-        raise document.refuse(f"attribute {group}@paddle_share is {share}, must be 0 to 1")
-    stiffness = number("surface_stiffness")
-    if stiffness < 0:
-        raise document.refuse(f"attribute {group}@surface_stiffness is {stiffness} Pa/mm, must be 0 or more")
     return Contact(
-        document.text(f"{group}@view", ("CC", "MLO", "ML")), number("angle_deg"), number("turn_deg"), number("lean_deg"),
-        number("bend_deg"), number("thickness_mm"), number("initial_thickness_mm"), number("reduction_percent"), number("standoff_mm"),
-        number("ends_image") != 0, share, stiffness, _plates(document), _friction(document, nodes), _path(document))
+        document.text(f"{group}@view"), number("angle_deg"), number("turn_deg"), number("lean_deg"), number("bend_deg"),
+        number("thickness_mm"), number("initial_thickness_mm"), number("reduction_percent"), number("standoff_mm"),
+        number("ends_image") != 0, number("paddle_share"), number("surface_stiffness"), _plates(document),
+        {name: document.numbers(f"{group}/path_{name}") for name in ("thickness_mm", "force_N", "detector_N")})
 
 
 def _plates(document: Document) -> dict[str, Plate]:
     group = "/breast/contact/plates"
-    names = document.names(f"{group}/name")
-    axes = {name: document.places(f"{group}/{name}", len(names)) for name in ("normal", "anterior", "origin")}
-    for name in ("normal", "anterior"):
-        for i, length in enumerate(np.linalg.norm(axes[name], axis=1)):
-            if abs(length - 1) >= 1e-6:
-                raise document.refuse(f"dataset {group}/{name}[{i}] has length {length}, must be 1")
-    columns = ("edge_radius", "force_N", "area_cm2", "mean_kPa", "peak_kPa", "worst_gap_mm")
-    values = {name: document.numbers(f"{group}/{name}", (len(names),)) for name in columns}
-    return {name: Plate(name, *(axes[a][i] for a in ("normal", "anterior", "origin")),
-                        *(float(values[c][i]) for c in columns)) for i, name in enumerate(names)}
-
-
-def _friction(document: Document, nodes: int) -> Friction | None:
-    group = "/breast/contact/friction"
-    node = document.integers(f"{group}/node", (None,), 0, nodes)
-    friction = Friction(node, document.integers(f"{group}/plate", (len(node),), 0, 2),
-                    document.places(f"{group}/anchor", len(node)), document.numbers(f"{group}/bound", (len(node),)),
-                    document.numbers(f"{group}/stick", (len(node),)))
-    return friction if len(node) else None
-
-
-def _path(document: Document) -> dict[str, np.ndarray]:
-    group = "/breast/contact/path_"
-    thickness = document.numbers(group + "thickness_mm", (None,))
-    return {"thickness_mm": thickness, "force_N": document.numbers(group + "force_N", thickness.shape),
-            "detector_N": document.numbers(group + "detector_N", thickness.shape)}
+    names = document.texts(f"{group}/name")
+    columns = [document.numbers(f"{group}/{part.name}") for part in fields(Plate)[1:]]
+    return {name: Plate(name, *(column[i] if column.ndim > 1 else float(column[i]) for column in columns)) for i, name in enumerate(names)}

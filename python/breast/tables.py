@@ -28,7 +28,8 @@ def read_table(file: str | os.PathLike[str], pandas: bool | None = None) -> Any:
         BreastError: rows that do not fit the header, or a number that is not finite.
     """
     read = text_table.read_table(file)
-    columns = {name: _typed([row[name] for row in read.rows]) for name in read.columns}
+    records = read.records()
+    columns = {name: _typed([row[name] for row in records]) for name in read.columns}
     if pandas is not False:
         try:
             import pandas as pd

@@ -55,9 +55,5 @@ def read_thorax(doc: Document) -> Thorax | None:
     group = "/breast/thorax"
     if not doc.has_group(group):
         return None
-    intervals = doc.integer_list(f"{group}@intervals", 2)
-    angles, heights = (doc.number_list(f"{group}@{name}", 2) for name in ("angles", "heights"))
-    if min(intervals) < 1 or not (angles[0] < angles[1] and heights[0] < heights[1]):
-        raise doc.refuse(f"group {group} needs rising angles and heights and at least one interval of each")
-    radius = doc.numbers(f"{group}/radius", (intervals[1] + 3, intervals[0] + 3))
-    return Thorax(doc.place(f"{group}@origin"), doc.number(f"{group}@slope"), angles, heights, radius)
+    return Thorax(doc.numbers(f"{group}@origin"), doc.number(f"{group}@slope"), doc.numbers(f"{group}@angles"),
+                  doc.numbers(f"{group}@heights"), doc.numbers(f"{group}/radius"))

@@ -89,15 +89,13 @@ def checked_size(file: Path, size: list[int]) -> int:
     return voxels
 
 
-def inflated(file: Path, content: bytes, most: int, whole: bool = True) -> bytes:
-    """The first `most` bytes of what a gzip or zlib stream holds.
-
-    Raises BreastError when the stream is damaged; with `whole` also when it is cut off, its checksum included, or holds more.
+def inflated(file: Path, content: bytes, most: int) -> bytes:
+    """What a gzip or zlib stream holds. Raises BreastError when it is damaged, cut off (its checksum included) or more than `most` bytes.
     """
     stream = zlib.decompressobj(wbits=zlib.MAX_WBITS | 32)
     try:
         data = stream.decompress(content, most)
-        if whole and not stream.eof:
+        if not stream.eof:
             more = stream.decompress(stream.unconsumed_tail, 1)  # reads the checksum behind the last byte
             if more or not stream.eof:
                 raise BreastError("its compressed voxels are cut off, or more than the header announces", file)

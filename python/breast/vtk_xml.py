@@ -1,115 +1,93 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The arrays of a VTK XML file (.vtp, .vti) of the toolkit, without VTK."""
+"""Files of VTK XML (.vtp, .vti, .vtu), read by VTK (needs python3-vtk9).
+
+As of HDF5 (hdf5.py), a file whose seal holds is read as it is; any other was edited or is another program's, and `pairs` reads it first:
+VTK follows damaged headers out of its buffers.
+"""
 from __future__ import annotations
 
-import base64
 import hashlib
 import re
-import zlib
 from pathlib import Path
-from xml.etree import ElementTree
+from typing import Any
 
 import numpy as np
 
+from .document import read_only
 from .errors import BreastError
+from .programs import done_on
 
-_TYPES = {"Int8": "i1", "UInt8": "u1", "Int32": "i4", "UInt32": "u4", "Int64": "i8", "UInt64": "u8", "Float32": "f4",
-          "Float64": "f8"}
-_MOST_BYTES = 1 << 30
+Arrays = dict[str, "np.ndarray | list[str]"]
+_SEAL = re.compile(rb"<!-- sha256 of everything above: ([0-9a-f]{64}) -->")
+_CHECKED_AS = {"ImageData": ["image"], "PolyData": ["surface", "curves.vtp"], "UnstructuredGrid": []}
+"""The names by which pairs knows the files of a kind."""
 
 
 class VtkXml:
-    """A parsed file. Raises BreastError, one line, when it is damaged or not of the kind `wanted` (PolyData, ImageData)."""
+    """A file of the kind `wanted` (PolyData, ImageData, UnstructuredGrid): `data` is VTK's data set.
+
+    Raises BreastError, one line, when it is damaged or of another kind, when it was edited and the programs refuse it, and when VTK's
+    Python modules are not installed.
+    """
 
     def __init__(self, file: Path, wanted: str) -> None:
         self.file = file
         if not file.is_file():
             raise self.refuse("is not a file")
         content = file.read_bytes()
-        self._check_seal(content)
-        if b"<!DOCTYPE" in content or b"<!ENTITY" in content:
-            raise self.refuse("declares entities, which no file of VTK does")
-        try:
-            root = ElementTree.fromstring(content)
-        except ElementTree.ParseError as error:
-            raise self.refuse(f"is no XML ({error})") from None
-        data = root.find(wanted) if root.tag == "VTKFile" else None
-        if data is None:
+        seal = _SEAL.search(content)
+        if seal is None:
+            self._check(wanted)
+        elif hashlib.sha256(content[:seal.start()]).hexdigest().encode() != seal[1]:
+            raise self.refuse("is damaged: its text disagrees with the digest at its end")
+        if f'type="{wanted}"'.encode() not in content[:1000]:
             raise self.refuse(f"is no VTK file of the kind {wanted}")
-        piece = data.find("Piece")
-        if piece is None:
-            raise self.refuse("has no piece")
-        self.data, self.piece = data, piece
-        self._header = {"UInt32": 4, "UInt64": 8}.get(root.get("header_type", "UInt32"), 4)
-        self._compressed = root.get("compressor") == "vtkZLibDataCompressor"
+        try:
+            from vtkmodules import vtkIOXML
+        except ImportError as error:
+            raise BreastError("is read by VTK's Python modules", file, "apt-get install python3-vtk9") from error
+        reader = getattr(vtkIOXML, f"vtkXML{wanted}Reader")()
+        reader.SetFileName(str(file))
+        reader.Update()
+        self.data = reader.GetOutput()
 
     def refuse(self, what: str) -> BreastError:
         return BreastError(what, self.file, "make it again")
 
-    def _check_seal(self, content: bytes) -> None:
-        found = re.search(rb"<!-- sha256 of everything above: ([0-9a-f]{64}) -->", content)
-        if found and hashlib.sha256(content[: found.start()]).hexdigest().encode() != found.group(1):
-            raise self.refuse("is damaged: its text disagrees with the digest at its end")
+    def _check(self, wanted: str) -> None:
+        refusal = self.refuse("was changed after it was written")
+        for name in _CHECKED_AS[wanted]:
+            try:
+                return done_on(self.file, "pairs", ["all", f"--check={name}={self.file}"])
+            except BreastError as error:
+                refusal = error
+        raise refusal
 
-    def group(self, name: str, inside: ElementTree.Element | None = None) -> dict[str, np.ndarray | list[str]]:
-        """Arrays by name of FieldData, PointData, CellData, Points, Verts, Lines; texts as lists."""
-        parent = (self.piece if inside is None else inside).find(name)
-        arrays: dict[str, np.ndarray | list[str]] = {}
-        for element in [] if parent is None else [e for e in parent if e.tag in ("DataArray", "Array")]:
-            arrays[element.get("Name", "")] = self._array(element)
-        return arrays
+    @property
+    def points(self) -> np.ndarray:
+        """(P, 3) LPS mm."""
+        return vtk_array(self.data.GetPoints().GetData())
 
-    def fields(self) -> dict[str, np.ndarray | list[str]]:
-        return self.group("FieldData", self.data)
+    def fields(self) -> Arrays:
+        return self.group("FieldData")
 
-    def _array(self, element: ElementTree.Element) -> np.ndarray | list[str]:
-        name, kind = element.get("Name", ""), element.get("type", "")
-        if element.get("format") != "binary" or (kind != "String" and kind not in _TYPES):
-            raise self.refuse(f"array {name} is stored in a way that is not read ({kind}, {element.get('format')})")
-        try:
-            values = self._decoded(element.text or "")
-            if kind == "String":
-                return values.decode("utf-8").split("\0")[:-1]
-            array = np.frombuffer(values, dtype="<" + _TYPES[kind])
-            components = int(element.get("NumberOfComponents", "1"))
-            array = array.reshape(-1, components) if components > 1 else array
-        except (ValueError, IndexError, OverflowError, zlib.error) as error:
-            raise self.refuse(f"array {name} is damaged ({error})") from None
-        if array.dtype.kind == "f" and not np.isfinite(array).all():
-            raise self.refuse(f"array {name} holds a value that is not finite")
-        return array
+    def group(self, name: str) -> Arrays:
+        """Arrays by name of FieldData, PointData or CellData; texts as lists."""
+        group = getattr(self.data, f"Get{name}")()
+        arrays = [group.GetAbstractArray(n) for n in range(group.GetNumberOfArrays())]
+        return {array.GetName(): vtk_array(array) for array in arrays}
 
-    def _decoded(self, text: str) -> bytes:
-        text = "".join(text.split())
-        if not self._compressed:
-            raw = base64.b64decode(text, validate=True)
-            return raw[self._header :]
-        first = base64.b64decode(text[: 4 * -(-self._header // 3)], validate=True)
-        blocks = int.from_bytes(first[: self._header], "little")
-        header_bytes = self._header * (3 + blocks)
-        header_text = 4 * -(-header_bytes // 3)
-        if blocks == 0:
-            return b""
-        head = np.frombuffer(base64.b64decode(text[:header_text], validate=True)[:header_bytes], f"<u{self._header}")
-        size, last = int(head[1]), int(head[2])
-        if size * blocks > _MOST_BYTES:
-            raise ValueError("more than 1 GB")
-        body, out, at = base64.b64decode(text[header_text:], validate=True), [], 0
-        for b, compressed in enumerate(int(n) for n in head[3:]):
-            expected = last if b == blocks - 1 and last else size
-            block = zlib.decompressobj().decompress(body[at : at + compressed], expected + 1)
-            if len(block) != expected:
-                raise ValueError(f"block {b} has {len(block)} bytes, must have {expected}")
-            out.append(block)
-            at += compressed
-        return b"".join(out)
+    def cells(self, kind: str) -> list[np.ndarray]:
+        """Point numbers of each cell of Verts, Lines, Polys or Cells."""
+        cells = getattr(self.data, f"Get{kind}")()
+        if not cells.GetNumberOfCells():
+            return []
+        return np.split(vtk_array(cells.GetConnectivityArray()), vtk_array(cells.GetOffsetsArray())[1:-1])
 
-def cells_of(xml: VtkXml, kind: str) -> list[np.ndarray]:
-    """Point numbers of each cell of Verts, Lines, Polys or Cells."""
-    group = xml.group(kind)
-    ids, ends = group.get("connectivity"), group.get("offsets")
-    if not isinstance(ids, np.ndarray) or not isinstance(ends, np.ndarray) or len(ends) == 0:
-        return []
-    if len(ids) and ids.min() < 0 or (np.diff(ends) <= 0).any() or ends[-1] != len(ids):
-        raise xml.refuse(f"{kind} are damaged")
-    return np.split(ids, ends[:-1])
+
+def vtk_array(array: Any) -> Any:
+    """An array of VTK that refuses to be changed; texts as a list."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    if array.IsA("vtkStringArray"):
+        return [array.GetValue(n) for n in range(array.GetNumberOfValues())]
+    return read_only(vtk_to_numpy(array))

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .vtk_xml import VtkXml, cells_of
+from .vtk_xml import VtkXml, vtk_array
 
 _KINDS = {"Verts": {1: 1}, "Lines": {2: 3}, "Polys": {3: 5, 4: 9}}
 """VTK's cell type by number of points; 2 (vertices), 4 (polyline) and 7 (polygon) for other numbers."""
@@ -46,20 +46,13 @@ def read_xml_mesh(file: str | os.PathLike[str]) -> XmlMesh:
     fields = xml.fields()
     if fields.get("SPACE", ["LPS"]) != ["LPS"]:
         raise xml.refuse(f"is in {fields['SPACE']}, must be in LPS")
-    points = xml.group("Points").get("Points")
-    if not isinstance(points, np.ndarray) or points.ndim != 2:
-        raise xml.refuse("has no points")
     if surface:
-        parts = {kind: cells_of(xml, kind) for kind in _KINDS}
+        parts = {kind: xml.cells(kind) for kind in _KINDS}
         cells = [cell for part in parts.values() for cell in part]
         types = np.array([_KINDS[kind].get(len(cell), _OTHERWISE[kind]) for kind, part in parts.items() for cell in part])
     else:
-        cells, types = cells_of(xml, "Cells"), np.asarray(xml.group("Cells").get("types", []))
-    arrays = xml.group("PointData"), xml.group("CellData")
-    fits = all(len(a) == n for group, n in zip(arrays, (len(points), len(cells))) for a in group.values())
-    if len(types) != len(cells) or not fits or any(cell.max() >= len(points) for cell in cells):
-        raise xml.refuse("its cells or arrays do not fit its points")
-    return XmlMesh(path, points, _by_type(cells, types), types.astype(np.int64), *arrays, fields)
+        cells, types = xml.cells("Cells"), vtk_array(xml.data.GetCellTypesArray())
+    return XmlMesh(path, xml.points, _by_type(cells, types), types.astype(np.int64), xml.group("PointData"), xml.group("CellData"), fields)
 
 
 def _by_type(cells: list[np.ndarray], types: np.ndarray) -> dict[int, np.ndarray | list[np.ndarray]]:

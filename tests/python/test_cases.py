@@ -7,6 +7,7 @@ import re
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 from breast.cases.attempt import attempt
 from breast.cases.case_file import parse_case_file, read_case_file, setting_in
@@ -169,17 +170,17 @@ class Attempts(InFolder):
 
 class Ladders(InFolder):
     def test_end_at_the_first_rung_that_is_good_enough(self):
-        # A stub of tabulate that prints the row of a point: the first has no solution, the last meets the bound.
-        judge = self.folder / "judge"
-        judge.write_text("#!/bin/sh\ncase $3 in\n*-4) ;;\n*-8) printf '%s\\t%s\\tyes\\n' $3 \"$5\" ;;\n"
-                         "*) printf '%s\\t%s\\tno\\n' $3 \"$5\" ;;\nesac\n")
-        judge.chmod(0o700)
+        def judge(folder, point, coarser, wanted):
+            """The first point has no solution, the last meets the bound."""
+            self.assertEqual((folder, wanted), (self.folder / "studies/cost", 0.5))
+            return None if point.endswith("-4") else [point, coarser, "-", "-", "1", "yes" if point.endswith("-8") else "no"]
 
         def up(*points):
-            return climb(self.folder, "0.5", points, [str(judge)], ["true"])
+            with mock.patch("breast.study.cost.accuracy_row", judge):
+                return climb(self.folder, 0.5, points, ["true"])
         self.assertEqual(up("q1p0-dome-4", "q2p1-dome-6", "q1p0-dome-8", "q1p0-dome-10"),
                          "point\telements\tstress_free_estimate_mm\tsupine_estimate_mm\tcpu_s\tmeets\n"
-                         "q2p1-dome-6\t\tno\nq1p0-dome-8\tq2p1-dome-6\tyes\n")
+                         "q2p1-dome-6\t\t\t\t1\tno\nq1p0-dome-8\tq2p1-dome-6\t\t\t1\tyes\n")
         self.assertEqual((self.folder / "accuracy.mk").read_text(), "ELEMENTS := 8\nELEMENT := q1p0\n")
         self.assertIn("not met", up("q2p1-dome-6"))
         self.assertEqual((self.folder / "accuracy.mk").read_text(), "ELEMENTS := 6\nELEMENT := q2p1\n")

@@ -250,28 +250,6 @@ class Vtk(unittest.TestCase):
             if inside:
                 self.assertEqual(cell, element)
 
-    @unittest.skipUnless(HAS_VTK, "python3-vtk9 is not installed")
-    def test_mammograms_and_curves_are_those_of_vtk(self) -> None:
-        from vtkmodules.util.numpy_support import vtk_to_numpy
-        from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLPolyDataReader
-        run = breast.load(small_run.folder())
-        reader = vtkXMLImageDataReader()
-        reader.SetFileName(str(run.folder / "mlo.vti"))
-        reader.Update()
-        data = reader.GetOutput().GetPointData()
-        self.assertEqual({data.GetArrayName(i) for i in range(data.GetNumberOfArrays())}, set(run.mammograms["mlo"].images))
-        for name, image in run.mammograms["mlo"].images.items():
-            np.testing.assert_array_equal(vtk_to_numpy(data.GetArray(name)), image.ravel())
-        reader = vtkXMLPolyDataReader()
-        reader.SetFileName(str(run.folder / "curve.vtp"))
-        reader.Update()
-        poly = reader.GetOutput()
-        names = poly.GetCellData().GetAbstractArray("name")
-        for c in range(poly.GetNumberOfCells()):
-            if names.GetValue(c) == "curve":
-                ids = [poly.GetCell(c).GetPointId(k) for k in range(poly.GetCell(c).GetNumberOfPoints())]
-                np.testing.assert_array_equal(vtk_to_numpy(poly.GetPoints().GetData())[ids], run.curves["curve"][0].points)
-
 
 if __name__ == "__main__":
     unittest.main()

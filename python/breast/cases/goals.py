@@ -25,8 +25,7 @@ class Goals:
     """The targets given to make; those that the table in `pipelines` does not contain need nothing."""
 
     def __init__(self, pipelines: Path, names: Sequence[str]) -> None:
-        table = read_table(pipelines / "goals.tsv")
-        needs = {row["goal"]: table.cell(row, "needs").split() for row in table.rows}
+        needs = {row["goal"]: row["needs"].split() for row in read_table(pipelines / "goals.tsv").records()}
         self._goals = [(name, needs.get(name, [])) for name in names]
 
     def about_case(self) -> bool:

@@ -5,32 +5,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..command.child import capture_child, run_child
+from ..command.child import run_child
 from ..errors import Failed, NotConverged
 from ..output import write_text
 
-_HEADER = "point\telements\tstress_free_estimate_mm\tsupine_estimate_mm\tcpu_s\tmeets\n"
 
-
-def _tried(cost: Path, wanted_mm: str, point: str, coarser: str, tabulate: Sequence[str], make: Sequence[str]) -> str:
-    """Solves a point and returns its row of the table, or "" if the point has no solution."""
-    # The user should see the output of make, but stdout is reserved for the table.
-    if run_child([*make, str(cost / point / "supine.json")], out=2) != 0:
-        raise Failed(f"accuracy: {point} could not be made")
-    said = capture_child([*tabulate, "accuracy", str(cost), point, wanted_mm, *([coarser] if coarser else [])])
-    if said.exit_code != 0:
-        raise Failed(" ".join(said.err.splitlines()))
-    return said.out
-
-
-def climb(run: Path, wanted_mm: str, points: Sequence[str], tabulate: Sequence[str], make: Sequence[str]) -> str:
+def climb(run: Path, wanted_mm: float, points: Sequence[str], make: Sequence[str]) -> str:
     """Writes RUN/accuracy.tsv, a table of the points tried, and RUN/accuracy.mk, the ELEMENTS and ELEMENT chosen.
 
     Chosen is the first point whose estimated error is at most `wanted_mm`, mm, or otherwise the last that has a solution.
 
     Args:
         points: ELEMENT-TEMPLATE-N, rows of pipelines/studies/cost.tsv.
-        tabulate: the command `tabulate`, whose kind `accuracy` judges a point.
         make: the command that solves a point, without its target.
 
     Returns:
@@ -40,21 +26,27 @@ def climb(run: Path, wanted_mm: str, points: Sequence[str], tabulate: Sequence[s
         NotConverged: no point has a solution.
         Failed: a command fails.
     """
-    cost = run / "studies/cost"
-    table, row, chosen, coarser = _HEADER, "", "", ""
+    from ..study.cost import accuracy_row
+    from ..study.table import Table
+
+    cost, coarser = run / "studies/cost", ""
+    table = Table(["point", "elements", "stress_free_estimate_mm", "supine_estimate_mm", "cpu_s", "meets"])
     for point in points:
-        found = _tried(cost, wanted_mm, point, coarser, tabulate, make)
-        if not found:
+        # The user should see the output of make, but stdout is reserved for the table.
+        if run_child([*make, str(cost / point / "supine.json")], out=2) != 0:
+            raise Failed(f"accuracy: {point} could not be made")
+        row = accuracy_row(cost, point, coarser, wanted_mm)
+        if row is None:
             continue
-        row, chosen = found, point
-        table += row
+        table.rows.append(row)
         if point.startswith("q2p1-"):
             coarser = point
-        if row.endswith("yes\n"):
+        if row[-1] == "yes":
             break
-    if not chosen:
+    if not table.rows:
         raise NotConverged(f"accuracy: no mesh of the ladder could be solved: see {cost}")
-    write_text(run / "accuracy.tsv", table)
+    write_text(run / "accuracy.tsv", table.text())
+    chosen, meets = table.rows[-1][0], table.rows[-1][-1] == "yes"
     element, _, elements = chosen.split("-")
     write_text(run / "accuracy.mk", f"ELEMENTS := {elements}\nELEMENT := {element}\n")
-    return table + ("" if row.endswith("yes\n") else f"accuracy: {wanted_mm} mm is not met by any mesh tried; the finest is taken\n")
+    return table.text() + ("" if meets else f"accuracy: {wanted_mm:g} mm is not met by any mesh tried; the finest is taken\n")

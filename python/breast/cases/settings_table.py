@@ -31,10 +31,8 @@ class Setting(NamedTuple):
 
 def read_settings(pipelines: Path) -> list[Setting]:
     """The settings of the pipeline in the folder `pipelines`, in the order of the table."""
-    table = read_table(pipelines / "settings.tsv")
-    return [Setting(table.cell(row, "setting"), table.cell(row, "kind"), table.cell(row, "of") == "case",
-                    tuple(table.cell(row, "choices").split()), table.cell(row, "may_hold"))
-            for row in table.rows]
+    return [Setting(row["setting"], row["kind"], row["of"] == "case", tuple(row["choices"].split()), row["may_hold"])
+            for row in read_table(pipelines / "settings.tsv").records()]
 
 
 def check_characters(setting: Setting, value: str) -> None:
@@ -89,7 +87,7 @@ def _accepted(setting: Setting, word: str, pipelines: Path) -> list[str]:
     kind = setting.choices[0]
     if kind.startswith("rows:"):
         study = read_table(pipelines / "studies" / (kind.removeprefix("rows:") + ".tsv"))
-        return [study.cell(row, "variant") for row in study.rows]
+        return [row["variant"] for row in study]
     if kind == "set":
         return ["%"] if os.path.exists(word) else sorted(file.stem for file in (pipelines / "materials").glob("*.tsv"))
     return list(setting.choices)

@@ -114,7 +114,7 @@ def _attempt(words: list[str], run: Run) -> None:
 
 def _ladder(words: list[str], run: Run) -> None:
     from .ladder import climb
-    sys.stderr.write(climb(Path(words[0]), words[1], words[2].split(), words[3].split(), words[4:]))
+    sys.stderr.write(climb(Path(words[0]), parse_number(words[1], "ACCURACY"), words[2].split(), words[3:]))
 
 
 def _run(words: list[str], run: Run) -> None:
@@ -129,8 +129,7 @@ def _run(words: list[str], run: Run) -> None:
 
 
 def _any_done(words: list[str], run: Run) -> None:
-    table = read_table(words[0])
-    if not any(table.cell(row, "status") == "done" for row in table.rows):
+    if not any(row["status"] == "done" for row in read_table(words[0])):
         raise Failed(f"every case failed: see {words[0]}")
 
 
@@ -174,8 +173,8 @@ KINDS = {
     "attempt": Kind("STAGE.json 'INPUT...' -- COMMAND...",
                     "runs a stage of a variant; if it has no solution, the report gives the reason", 3, _attempt),
     "gripped": Kind("RUN", "fails if the plates of a view do not grip the breast, and says why", 1, _gripped),
-    "ladder": Kind("RUN MM 'POINT...' 'TABULATE...' -- MAKE...", "solves points of the study `cost` until the estimated error is below "
-                   "MM, and writes RUN/accuracy.mk", 5, _ladder),
+    "ladder": Kind("RUN MM 'POINT...' -- MAKE...", "solves points of the study `cost` until the estimated error is below "
+                   "MM, and writes RUN/accuracy.mk", 4, _ladder),
     "run": Kind("RUNS CASE -- MAKE... GOAL", "runs a case of the cohort listed in RUNS/.cases and writes its outcome to RUNS/CASE.status",
                 4, _run),
     "any-done": Kind("TABLE.tsv", "fails if no case in the table of a cohort was completed", 1, _any_done),

@@ -10,7 +10,7 @@ from typing import NamedTuple, NoReturn
 from ..command.make_name import plain_for_make
 from ..command.nearest import suggestion
 from ..errors import BreastError
-from ..text_table import TextTable, parse_table
+from ..text_table import Table, parse_table
 from .make_text import code_in, has_control
 from .scan_identity import content_of
 
@@ -34,7 +34,7 @@ class StudyBase:
 
 
 class _Row(NamedTuple):
-    table: TextTable
+    table: Table
     cells: Mapping[str, str]
     study: str
     origin: str  # the row from which the study's rows come unless they say otherwise
@@ -144,7 +144,7 @@ class Studies:
         table = parse_table(text, file)
         _check_among(file, table.columns, [*_COLUMNS, *self._base.attributes])
         self.names.append(study)
-        for row in table.rows:
+        for row in table.records():
             self._add_row(_Row(table, row, study, origin))
 
     def _folder(self, study: str, variant: str) -> str:

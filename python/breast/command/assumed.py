@@ -37,7 +37,7 @@ def series_of(installation: Installation, folder: str) -> Series:
         listed = capture_child([installation.tool("scan"), folder, "--list", "--side", side, "--quiet"])
         if listed.exit_code != 0:
             return Series(SIDES)
-        rows = parse_table(listed.out, folder).rows
+        rows = parse_table(listed.out, folder).records()
         taken = next((row for row in rows if row["use"] == "taken"), None)
         if taken is None:
             if any(not row["use"].startswith("no") for row in rows):  # several are equally good: the stage asks for a number
@@ -109,7 +109,7 @@ def tumour_position(given: str) -> np.ndarray:
     elif path.name.endswith(".tsv"):
         from ..text_table import read_table
         table = read_table(path)
-        points = np.array([[table.number(row, f"{axis}_mm") for axis in "xyz"] for row in table.rows])
+        points = np.array([[table.number(row, f"{axis}_mm") for axis in "xyz"] for row in range(len(table.rows))])
     else:
         points = _voxels_of_tumour(path)
     if not len(points):

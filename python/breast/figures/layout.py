@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import textwrap
 from collections.abc import Iterable, Sequence
 from typing import Any
 
@@ -184,7 +185,8 @@ class Panel:
 
     def caption(self, words: str, colour: Colour = INK) -> None:
         """Words at the top, in as many lines as they need; what is drawn afterwards stays below them."""
-        for line in _lines(words, self.size[0] - 2 * _EDGE):
+        for line in textwrap.wrap(words, int((self.size[0] - 2 * _EDGE) / (_LETTER_WIDTH * (LETTERS + 1))), break_long_words=False,
+                                  break_on_hyphens=False):
             self.text((_EDGE, self.top - 0.5 * _LINE), line, LETTERS + 1, colour)
             self.top -= _LINE
 
@@ -286,13 +288,3 @@ class Panel:
         side = np.array([-along[1], along[0]])
         self.line([start, tip - 0.6 * length * along], Stroke(INK, width))
         self._add(Polygon([tip, tip - length * along + half * side, tip - length * along - half * side], color=INK))
-
-
-def _lines(words: str, width: float) -> list[str]:
-    """Words in lines of at most `width` pixels."""
-    room, lines = width / (_LETTER_WIDTH * (LETTERS + 1)), [""]
-    for word in words.split():
-        if lines[-1] and len(lines[-1]) + 1 + len(word) > room:
-            lines.append("")
-        lines[-1] += (" " if lines[-1] else "") + word
-    return lines

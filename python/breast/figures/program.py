@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import subprocess
-import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..command.beside import ended, readable_scan, started
 from ..command.nearest import suggestion
 from ..command.tool import Run, Tool
 from ..errors import BreastError
 from ..output import check_replaceable, write_bytes
+from ..programs import ended, started
 from . import FIGURES
 from .of_run import PICTURES
 
@@ -72,26 +71,29 @@ def _check(args: Any) -> None:
 
 def _render(run: Run) -> None:
     args = run.args
-    # The files' pairs are checked, in C++, while they are read here.
-    with tempfile.TemporaryDirectory(prefix="breast-render-") as folder:
-        pairs = _started_pairs(args)
-        try:
-            from .reading import inputs_of_figure, inputs_of_run
-            files, labels = [Path(file) for file in args.file], Path(args.labels) if args.labels else None
-            scan = readable_scan(Path(args.scan), args.series, Path(folder)) if args.scan else None
-            if args.all:
-                drawn = inputs_of_run(files, scan, labels, args.only.split(",") if args.only else [])
-            else:
-                drawn = [(args.figure, args.figure, inputs_of_figure(args.figure, files, scan, labels))]
-        except BreastError:
-            _finish_pairs(pairs, run)
-            raise
+    pairs = _started_pairs(args)  # they are checked, in C++, while they are read here
+    try:
+        drawn = _inputs(args)
+    except BreastError:
         _finish_pairs(pairs, run)
+        raise
+    _finish_pairs(pairs, run)
     targets = [Path(args.all) / f"{name}.png" if args.all else Path(args.output) for name, _, _ in drawn]
     for target in targets:
         check_replaceable(target, "--all" if args.all else "--output")
     _draw(drawn, targets)
     run.report["figure"] = args.figure if not args.all else [name for name, _, _ in drawn]
+
+
+def _inputs(args: Any) -> list[tuple[str, str, Inputs]]:
+    """Name, figure and inputs of every picture."""
+    from ..loading import load_scan
+    from .reading import inputs_of_figure, inputs_of_run
+    files, labels = [Path(file) for file in args.file], Path(args.labels) if args.labels else None
+    scan = load_scan(args.scan, args.series) if args.scan else None
+    if args.all:
+        return inputs_of_run(files, scan, labels, args.only.split(",") if args.only else [])
+    return [(args.figure, args.figure, inputs_of_figure(args.figure, files, scan, labels))]
 
 
 def _draw(drawn: list[tuple[str, str, Inputs]], targets: list[Path]) -> None:

@@ -10,18 +10,18 @@ from ..curves import Line, read_curves
 from ..errors import BreastError
 from ..geometry import read_geometry
 from ..labels import read_labels
-from ..loading import load_scan
 from ..mammogram import read_mammogram
 from ..state_file import read_state
+from ..volume import Volume
 from ..xml_mesh import read_xml_mesh
 from . import FIGURES
 from .inputs import Inputs
 from .of_run import PICTURES, RunPicture, pictures_of
 
 
-def inputs_of_figure(figure: str, files: Sequence[Path], scan: Path | None, labels: Path | None) -> Inputs:
+def inputs_of_figure(figure: str, files: Sequence[Path], scan: Volume | None, labels: Path | None) -> Inputs:
     """What the files of one figure hold; which kind a .vtkhdf and a .vtp is follows from the figure."""
-    inputs = Inputs(scan=load_scan(scan) if scan else None, labels=read_labels(labels) if labels else None)
+    inputs = Inputs(scan=scan, labels=read_labels(labels) if labels else None)
     for file in files:
         if file.suffix == ".tsv":
             inputs.tables.append(str(file))
@@ -30,7 +30,7 @@ def inputs_of_figure(figure: str, files: Sequence[Path], scan: Path | None, labe
     return inputs
 
 
-def inputs_of_run(files: Sequence[Path], scan: Path | None, labels: Path | None,
+def inputs_of_run(files: Sequence[Path], scan: Volume | None, labels: Path | None,
                   only: Sequence[str]) -> list[tuple[str, str, Inputs]]:
     """Name, figure and inputs of the pictures that files of a run allow (of_run.py), or of those named `only`.
 
@@ -48,10 +48,9 @@ def inputs_of_run(files: Sequence[Path], scan: Path | None, labels: Path | None,
     used = {name for picture in wanted for name in (*picture.files, *picture.also) if name in named}
     read = {name: read_labels(named[name]) if name == "labels.vtkhdf" else
             _read(named[name], name == "geometry.vtkhdf", name == "points.vtp") for name in sorted(used)}
-    volume = load_scan(scan) if scan else None
 
     def inputs_of(picture: RunPicture) -> Inputs:
-        inputs = Inputs(scan=volume, labels=read["labels.vtkhdf"]) if picture.scan else Inputs()
+        inputs = Inputs(scan=scan, labels=read["labels.vtkhdf"]) if picture.scan else Inputs()
         for name in (*picture.files, *picture.also):
             if name in read and name != "labels.vtkhdf":
                 _add(inputs, read[name])

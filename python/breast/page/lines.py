@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ..command.beside import printed_by
 from ..errors import BreastError
+from ..programs import printed_by
 from ..state import State
 from ..state_file import read_state
 from ..study.table import NO_VALUE, read_table

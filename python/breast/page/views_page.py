@@ -2,14 +2,13 @@
 """The page itself: which files of a run it is made of, and what of them it shows."""
 from __future__ import annotations
 
-import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..cases.compression import VIEWS, why_not_made
-from ..command.beside import ended, readable_scan, started
 from ..errors import BreastError
+from ..programs import ended, started
 from ..study.files import exists
 from ..study.html import data_uri, page
 from ..study.kinds import Request, kind
@@ -66,7 +65,7 @@ class Views:
     patients: dict[str, PatientImage] = field(default_factory=dict)
 
 
-def read_views(run: Path, scan: Path | None, shows_scan: bool = True) -> Views:
+def read_views(run: Path, scan: Path | None, shows_scan: bool = True, series: int = 0) -> Views:
     """Raises BreastError where a file is missing or damaged, or where the lookup is not of these compressions."""
     from ..labels import read_labels
     from ..loading import load_scan
@@ -89,8 +88,8 @@ def read_views(run: Path, scan: Path | None, shows_scan: bool = True) -> Views:
     if origin == "none" and any("tumour" in name for name in body.landmarks):  # a mesh without a report
         origin = "artificial" if "artificial_tumour" in body.landmarks else "given"
     patients = {image.view: read_patient(run, image.view, image.side) for image, _ in pairs}
-    return Views(pairs, lookups, body, read_labels(labels) if labels.exists() else None, load_scan(scan) if scan else None, shows_scan,
-                 origin, {view: patient for view, patient in patients.items() if patient is not None})
+    return Views(pairs, lookups, body, read_labels(labels) if labels.exists() else None, load_scan(scan, series) if scan else None,
+                 shows_scan, origin, {view: patient for view, patient in patients.items() if patient is not None})
 
 
 def _read_lookups(file: Path, states: list[State]) -> tuple[Lookup, Lookup]:
@@ -267,9 +266,8 @@ def _page(request: Request) -> str:
     named = {name: run / name for pair in pairs for name in pair if (run / name).exists()} | ({"SCAN": Path(scan)} if scan else {})
     # The files' pairs are checked, in C++, while they are read here.
     check = started("pairs", ["tabulate", "--series", series, *(f"--check={name}={file}" for name, file in named.items())])
-    with tempfile.TemporaryDirectory(prefix="breast-page-") as folder:
-        try:
-            views = read_views(run, readable_scan(Path(scan), int(series), Path(folder)) if scan else None, shown == "yes")
-        finally:
-            ended("pairs", check)
+    try:
+        views = read_views(run, Path(scan) if scan else None, shown == "yes", int(series))
+    finally:
+        ended("pairs", check)
     return views_page(run, views)

@@ -9,9 +9,9 @@ from pathlib import Path
 
 from ..errors import BreastError
 from ..text_table import read_text
-from .kinds import Request, kind
+from .kinds import Request
 from .stage_report import StageReport
-from .table import Table, one_line, or_dash
+from .table import one_line
 
 CHAIN_STAGES = ("labels", "geometry", "mesh", "reference", "supine", "cc", "mlo", "cc-mammogram", "mlo-mammogram", "curve", "lookup")
 """The names of the reports of the chain's stages, in order."""
@@ -78,9 +78,3 @@ def warnings_of(run: Path, advice: list[Advice]) -> list[Warned]:
 
 def own_advice(request: Request) -> list[Advice]:
     return read_advice(request.pipelines / "advice.tsv")
-
-
-@kind("warnings", "RUN", "warnings of the stages, each once, with advice")
-def _warnings(request: Request) -> Table:
-    warned = warnings_of(request.path(0), own_advice(request))
-    return Table(["stages", "warning", "advice"], [[w.stages, w.text, or_dash(w.remedy)] for w in warned])

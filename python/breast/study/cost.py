@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ..text_table import parse_number
 from .kinds import Request, kind
 from .shapes import most_apart
 from .stage_report import StageReport, posture_failure_of
@@ -76,10 +75,3 @@ def accuracy_row(folder: Path, point: str, coarser: str, wanted: float) -> Row |
 @kind("cost", "FOLDER FINEST POINT...", "error against run time for the points ELEMENT-TEMPLATE-N[-SOLVER]")
 def _cost(request: Request) -> Table:
     return cost_table(request.path(0), request.word(1), request.rest(2))
-
-
-@kind("accuracy", "FOLDER POINT MM [COARSER]",
-      "row of one discretisation tried by ACCURACY, without header; nothing if it has no solution")
-def _accuracy(request: Request) -> str:
-    row = accuracy_row(request.path(0), request.word(1), request.word(3), parse_number(request.word(2), "accuracy: MM"))
-    return "" if row is None else Table([str(n) for n in range(len(row))], [row]).text().partition("\n")[2]

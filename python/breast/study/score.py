@@ -8,10 +8,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..command.beside import printed_by
 from ..command.tool import Run, Tool
 from ..errors import BreastError
 from ..output import write_text
+from ..programs import printed_by
 from .seen import by_case, of_side, pairs_in, postures_in, read_seen
 from .stage_report import StageReport
 from .table import NO_VALUE, Table, fixed, number_of, parse_table, read_table

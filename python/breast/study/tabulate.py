@@ -10,7 +10,7 @@ from pathlib import Path
 from ..command.tool import Run, Tool
 from ..errors import BreastError
 from ..page import views_page  # noqa: F401
-from . import summary, report, advice, verify, values  # noqa: F401, I001  the order of the help
+from . import summary, report, verify, values  # noqa: F401, I001  the order of the help
 from . import run_tables, paper_tables, outcomes, cost, leaveout, cohort, sides, views  # noqa: F401
 from .kinds import KINDS, Request, kind_called
 
