@@ -58,14 +58,17 @@ bool ForwardSteps::stays(const State& state) {
                          definite(nearly_incompressible));
 }
 
-NewtonResult ForwardSteps::run(const Eigen::VectorXd& load, State& state) {
-  return run([&load](double part) -> Eigen::VectorXd { return part * load; }, state);
+NewtonResult ForwardSteps::run(const Eigen::VectorXd& load, State& state,
+                               std::optional<State> guess) {
+  return run([&load](double part) -> Eigen::VectorXd { return part * load; }, state,
+             std::move(guess));
 }
 
 // An unstable equilibrium is not accepted as a solution.
-NewtonResult ForwardSteps::run(const std::function<Eigen::VectorXd(double)>& load_at,
-                               State& state) {
+NewtonResult ForwardSteps::run(const std::function<Eigen::VectorXd(double)>& load_at, State& state,
+                               std::optional<State> guess) {
   LoadSteps steps;
+  steps.guess = std::move(guess);
   steps.divide = !fail_fast_;
   steps.set_load = [&](double part) { loaded_.set_load(load_at(part)); };
   steps.solve = [&](State& trial, double from, double to) { return attempt(trial, from, to); };

@@ -20,11 +20,12 @@ class ForwardSteps {
                bool fail_fast, std::string name, Equilibrium& found, Progress& progress);
 
   /// Increases the load from `state` to `load` (nodal forces, µN) and judges the last equilibrium,
-  /// which `state` then is.
-  NewtonResult run(const Eigen::VectorXd& load, State& state);
+  /// which `state` then is. `guess`: as of LoadSteps.
+  NewtonResult run(const Eigen::VectorXd& load, State& state, std::optional<State> guess = {});
   /// The same for a load (nodal forces, µN) that is `load_at` of a part of the way, 0 to 1; `state` is
   /// the solution for load_at(0).
-  NewtonResult run(const std::function<Eigen::VectorXd(double)>& load_at, State& state);
+  NewtonResult run(const std::function<Eigen::VectorXd(double)>& load_at, State& state,
+                   std::optional<State> guess = {});
   /// Whether a stable equilibrium is found in one step under the present load.
   bool stands(State& state) { return attempt(state, 0, 1).converged && stays(state); }
 

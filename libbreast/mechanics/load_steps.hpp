@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "core/progress.hpp"
@@ -20,6 +21,8 @@ struct LoadSteps {
   /// Solves for the load `to`, starting at the solution for `from`; on success `state` is the new
   /// solution.
   std::function<NewtonResult(State& state, double from, double to)> solve;
+  /// A state near the solution for the whole load, if one is known: the first attempt starts there.
+  std::optional<State> guess;
   /// Whether a step that fails is divided.
   bool divide = true;
 };
