@@ -13,7 +13,7 @@ import numpy as np
 
 from .errors import BreastError
 
-_TYPES = {"Int8": "i1", "UInt8": "u1", "Int32": "i4", "UInt32": "u4", "Int64": "i8", "UInt64": "u8", "Float32": "f4",
+_TYPES = {"Int8": "i1", "UInt8": "u1", "UInt16": "u2", "Int32": "i4", "UInt32": "u4", "Int64": "i8", "UInt64": "u8", "Float32": "f4",
           "Float64": "f8"}
 _MOST_BYTES = 1 << 30
 
