@@ -29,9 +29,9 @@ $(RUN)/states/cc.vtkhdf $(RUN)/states/mlo.vtkhdf: $(RUN)/states/%.vtkhdf: $(RUN)
   $$(call changed,$$*-states)
 	@mkdir -p $(@D)
 	$(call of_pressed,$*-states) $(COMPRESS) $< $@ --view $(view_$*) $($*_options) --states $(STATES) $(common)
-$(F)/%-states.png: $(RUN)/states/%.vtkhdf $(RENDER)
+$(F)/%-states.png: $(RUN)/states/%.vtkhdf $(CURVE) $(RENDER)
 	@mkdir -p $(@D)
-	@[ ! -e $< ] || $(RENDER) $(basename $<)-states/state_*.vtkhdf --figure states -o $@
+	@[ ! -e $< ] || $(RENDER) $(basename $<)-states/state_*.vtkhdf $(if $(CURVE),$$(ls $(CURVE) 2> /dev/null)) --figure states -o $@
 .SECONDARY: $(of_states)
 states: $(call pictures,supine-states cc-states mlo-states)
 	$(gripped)

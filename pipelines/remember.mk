@@ -11,7 +11,8 @@
 named = $(if $1,$(notdir $(patsubst %/,%,$1)):$(shell printf %s '$1' | sha256sum | cut -c1-12))
 record_file = $(or $($1_record),$(RUN)/.$1.settings)
 stale = $(if $(subst x$(strip $(file < $1))x,,x$(strip $2)x),FORCE)
-staged = @$(BIN)/cases stage $1 $(call quoted,$(strip $2)) $3 --quiet --
+# A stage that is made again by the times of its files alone has no settings.
+staged = @$(BIN)/cases stage $1 $(call quoted,$(or $(strip $2),none)) $3 --quiet --
 named_stage = $(call staged,$(call record_file,$1),$($1_settings),$2)
 # In the folder of a study's row: the same, with the row's own options. A solve may end early, and what needed it with it.
 changed_in = $(call stale,$1/.$2.settings,$($2_settings))

@@ -54,6 +54,21 @@ made_by = flock $(TABLES_OF_PAGE) $(tabulate) made $@ $1
 cost-table: cost
 	cp $(COST)/cost.tsv $(TABLES_OF_PAGE)/cost.tsv
 	$(tabulate) made $(TABLES_OF_PAGE)/cost.tsv $(call study_dir,cost)/$(COST_FINEST)/supine.json
+# Of the same page: how friction moves the tumour between the plates of screening, and what a lookup loses between its nodes.
+lookups := $(foreach pitch,16 8 4 2 1,$(RUN)/lookups/pitch-$(pitch).h5)
+default_plates = $(call study_dir,friction)/friction-0.3
+errors-tables: $(BIN)/tabulate $(BIN)/match-lookup
+	@+$(MAKE) -f $(PIPELINE) STUDY=tests/bench/friction.tsv study
+	$(tabulate) plates $(call study_dir,friction) friction-0.3 friction-0.2 friction-0.3 friction-0.4 > $(TABLES_OF_PAGE)/friction.tsv
+	$(tabulate) made $(TABLES_OF_PAGE)/friction.tsv $(default_plates)/cc.json
+	@mkdir -p $(RUN)/lookups
+	for file in $(lookups); do \
+	  pitch=$${file##*-}; \
+	  $(BIN)/match-lookup $(default_plates)/cc.vtkhdf $(default_plates)/mlo.vtkhdf $$file --pitch $${pitch%.h5} --report $${file%.h5}.json $(share); done
+	$(tabulate) lookup-cost $(lastword $(lookups)) $(filter-out $(lastword $(lookups)),$(lookups)) > $(TABLES_OF_PAGE)/lookup-cost.tsv
+	$(tabulate) made $(TABLES_OF_PAGE)/lookup-cost.tsv $(RUN)/lookups/pitch-1.json
+	$(tabulate) pages fill $(PAGES_WITH_TABLES)
+.PHONY: errors-tables
 errors-page: $(BIN)/tabulate $(RENDER)
 	for name in error-sources methods-cost; do \
 	  $(tabulate) $$name $(TABLES_OF_PAGE) > $(TABLES_OF_PAGE)/$$name.tsv.part; \

@@ -120,14 +120,14 @@ void declare(Tool& tool, Choices& c) {
               0, 500);
   tool.text(
       c.image_edge, "--image-edge", "auto|MM",
-      "place the plates as in the clinic. The edge of the image, where the plates' rounded edge "
-      "starts, is this far in front of the chest wall behind the breast (its most anterior point), "
-      "or of the muscle on it. auto is 5 for CC and 0 for MLO and ML; on a mesh with a layer of "
-      "muscle, the edge for MLO and ML is 1.25 times the muscle's thickness behind the front of the "
-      "muscle. If the rounded edges of auto carry 40 % of a plate's force in CC, the plates are placed anew at 7.5 and then at "
-      "10. The defaults of --turn, --lean, --bend, --edge-radius, --contact-points, --friction, "
-      "--positioning and --pull depend on this option. By default it is auto for a breast that "
-      "slides on its chest wall; otherwise, or if --standoff is given, --standoff places the plates");
+      "place the plates as in the clinic, by the edge of the image, where their rounded edge "
+      "starts: this far in front of the chest wall behind the breast (its most anterior point), or of "
+      "the muscle on it. This is the default for a breast that slides on its chest wall; otherwise, or "
+      "if --standoff is given, --standoff places the plates. auto, for CC: 5; if the rounded edges then "
+      "carry 40 % of a plate's force, 7.5, and then 10. auto, for MLO and ML: 0, or with a layer of "
+      "muscle, 1.25 times its thickness behind its front. With this option, the defaults of --turn, "
+      "--lean, --bend, --edge-radius, --contact-points, --friction, --positioning and --pull are those "
+      "of the clinic, too");
   tool.text(
       c.turn, "--turn", "auto|DEG",
       "turn the plates' edge by this angle towards the breast's side, about the patient's long "

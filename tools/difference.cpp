@@ -46,9 +46,9 @@ void run_difference(const Choices& c, Run& run) {
 
 int main(int argc, char** argv) {
   Choices c;
-  Tool tool("difference",
-            "derivative of a shape with respect to a parameter that changes the "
-            "mesh, from two other models");
+  Tool tool(
+      "difference",
+      "how a shape moves if its mesh changes (a shifted chest wall, say), from two such runs");
   tool.describe(
       "The tool sensitivity differentiates with respect to materials, gravity and plates; a "
       "change of the chest wall changes the mesh itself. The chain is therefore run twice more "

@@ -87,7 +87,7 @@ void run_lookup(const Choices& choices, Run& run) {
 
 int main(int argc, char** argv) {
   Choices choices;
-  Tool tool("match-lookup", "matched curves of all points of a mammogram");
+  Tool tool("match-lookup", "the curves in the other view of all points of a mammogram");
   tool.describe(
       "Matches a grid of points over the first image, each in the same way as cc2mlo matches one "
       "point. The results are written to one HDF5 file: the status of each point, its curve in "

@@ -123,7 +123,7 @@ void check_files(const Choices& choices, Run& run) {
 
 int main(int argc, char** argv) {
   Choices choices;
-  Tool tool("pairs", "which files must belong together");
+  Tool tool("pairs", "which files must belong together, and whether they do");
   tool.describe(
       "Prints a page in Markdown: for each pair of files that meet in a tool, what must agree "
       "between them and what --accept-other lets differ. With --check it prints nothing and checks "

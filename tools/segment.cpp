@@ -64,10 +64,11 @@ void declare(Tool& tool, Choices& c) {
                 "print the table of the series of a DICOM folder, as `scan` does, and end");
   tool.input_file(
       c.wall, "--chest-wall", "FILE|POINTS",
-      "corrected chest wall: a segmentation of 3D Slicer (.seg.nrrd, segment 'Chest wall'), a "
-      "label map (muscle, code 4, whose back is kept if it shows one), a surface (.vtp; of a file written by --points, its "
-      "chest-wall points), or clicked points from 3D Slicer (.mrk.json or .fcsv) or in a table with "
-      "columns x_mm y_mm z_mm (.tsv)");
+      "use this chest wall, for example a corrected one. Any of these: a segmentation of 3D Slicer "
+      "(.seg.nrrd, segment 'Chest wall'); a label map, whose muscle (code 4) begins at the wall; if it "
+      "shows the muscle's back, that is kept, too; a surface (.vtp), or the chest-wall points of a file "
+      "from --points; points clicked in 3D Slicer (.mrk.json, .fcsv); a table with columns x_mm y_mm "
+      "z_mm (.tsv)");
   tool.texts(c.codes, "--code", "NUMBER=TISSUE|NAME=TISSUE|PRESET",
              "tissue of a value or of a segment in --chest-wall, such as wall=3 or "
              "'Pectoralis=wall', or a preset of these: " +
@@ -80,13 +81,11 @@ void declare(Tool& tool, Choices& c) {
               "compares both");
   tool.choice(
       c.contrast, "--contrast", {"auto", "fat-bright", "fat-suppressed", "dixon"},
-      "which tissue is bright. auto: fat, or water and fat with --fat; a prone scan in which, by "
-      "the evidence of the skin, fat, muscle, subcutaneous tissue and chest wall, it is not (fat "
-      "suppression, T2, subtraction, half of a Dixon scan) is read as one with suppressed fat if "
-      "muscle is bright enough beside it to show the chest wall, and otherwise refused with the "
-      "numbers; fat-bright: the user vouches that fat is bright, and contrary evidence is only a "
-      "warning; fat-suppressed: the user says that fat is suppressed; dixon: MR is the water "
-      "image, --fat the fat image");
+      "which tissue is bright. auto: dixon with --fat; otherwise skin, fat, muscle and chest wall "
+      "must show that fat is bright. A prone scan in which it is not is read as fat-suppressed if its "
+      "muscle is bright enough to show the chest wall, and otherwise refused with the numbers. "
+      "fat-bright: fat is bright, whatever the scan shows; doubts are warnings. fat-suppressed: fat is "
+      "dark. dixon: MR is the water image, --fat the fat image");
   tool.input_file(c.fat, "--fat", "FILE",
                   "fat image of the Dixon scan whose water image is MR: body and chest wall are "
                   "found on their sum, gland by the share of fat; regions in which the scanner "

@@ -51,8 +51,8 @@ std::vector<Judgement> judge_grip(const ContactRecord& contact, const PressedSta
   }
   if (!missing.empty()) return missing;
   return {{"gripped",
-           message("the plates grip the breast: the paddle touches ", std::round(touched),
-                   " % of its projection"),
+           message("the plates grip the breast: the paddle touches ",
+                   std::round(contact.plates[0].area_cm2), " cm2 of skin"),
            false}};
 }
 

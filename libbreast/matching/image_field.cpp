@@ -85,7 +85,8 @@ struct Strip {
 
 Strip strip_at(const MammogramScan& scan, ImageField field, Edge edge) {
   const int step = edge == Edge::left ? 1 : -1;
-  const int width = std::max(3, (field.right - field.left + 1) / 15);
+  // Narrow, since a large breast comes within a few mm of the border.
+  const int width = std::max(3, (field.right - field.left + 1) / 30);
   int& at = border_of(field, edge);
   std::vector<double> values;
   for (int k = 0; k < width; ++k, at += step) {

@@ -22,7 +22,8 @@ class Mammogram:
 
     Attributes:
         file: where it was read from.
-        images: (nv, nu) arrays by name: path (line integral), thickness and fibroglandular (mm), through_back.
+        images: (nv, nu) arrays by name: path (line integral), thickness and fibroglandular (mm), through_back, and
+            grey (0 to 65535, as project-mammogram shows it).
         view: CC, MLO or ML.
         side: 'left' or 'right'.
         pixel_mm: distance of pixels.

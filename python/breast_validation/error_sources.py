@@ -9,7 +9,7 @@ from statistics import median
 
 from breast.errors import BreastError
 from breast.study.kinds import Request, kind
-from breast.study.table import Table, general, number_of, read_table
+from breast.study.table import NO_VALUE, Table, general, number_of, read_table
 
 Row = dict[str, str]
 TRUTH, FINER, CHOICE, AGAIN = "phantom's truth", "finer solution", "other assumption", "same breast again"
@@ -42,8 +42,8 @@ def _sources() -> Iterator[_Source]:
         yield _Source("half the steps of the plates", view, "tumour", FINER, "compression-steps", "tumour_mm",
                       _view(view, f"half-{view.lower()}"))
         yield _Source("twice as many elements", view, "tumour", FINER, "compression-mesh", "tumour_mm", _view(view, "16"))
-        for friction in ("0.1", "0.2"):
-            yield _Source(f"friction {friction} instead of 0.15", view, "tumour", CHOICE, "compression-friction", "tumour_mm",
+        for friction in ("0.2", "0.4"):
+            yield _Source(f"friction {friction} instead of 0.3", view, "tumour", CHOICE, "friction", "tumour_mm",
                           _view(view, f"friction-{friction}"))
     for shape, column in (("stress-free", "stress_free_error_mm"), ("supine", "supine_error_mm")):
         yield _Source("chain, wall held, stiffness known", shape, "tumour", TRUTH, "truth", column, lambda row: row["landmark"] == "true-tumour")
@@ -80,8 +80,9 @@ def methods_cost(folder: Path) -> Table:
     """One row a solution: method, elements, CPU seconds, error in mm, and against what it was measured.
 
     Prone to supine (cost.tsv): both solves, tumour or nipple against the finest solution. Between plates (compression-mesh.tsv): one view,
-    tumour against the next finer mesh. Identification (identification-cost.tsv): all of its solves, mean of the landmarks against the
-    phantom's truth; mean over the laws of the truth.
+    tumour against the next finer mesh. Looked up (lookup-cost.tsv): all curves of a view on a grid, points between its nodes against their
+    curves matched anew; a row is a pitch and states no elements. Identification (identification-cost.tsv): all of its solves, mean of the
+    landmarks against the phantom's truth; mean over the laws of the truth.
     """
     made = Table(["method", "elements", "cpu_s", "error_mm", "measured"])
     for row in read_table(folder / "cost.tsv"):
@@ -89,6 +90,8 @@ def methods_cost(folder: Path) -> Table:
         made.rows.append([method, row["elements"], row["cpu_s"], row["supine_error_mm"], FINER])
     for row in read_table(folder / "compression-mesh.tsv"):
         made.rows.append([f"between plates, {row['view']}", row["elements"], row["cpu_seconds"], row["tumour_mm"], FINER])
+    for row in read_table(folder / "lookup-cost.tsv"):
+        made.rows.append(["curve looked up in MLO", NO_VALUE, row["cpu_s"], row["mean_mm"], FINER])
     by_elements: dict[str, list[tuple[float, float]]] = {}
     identification = read_table(folder / "identification-cost.tsv")
     for n, row in enumerate(identification):

@@ -4,11 +4,13 @@ scripts for Slurm; and what it does with a case that fails."""
 import os
 import random
 import re
+import subprocess
 import tempfile
 import unittest
 from pathlib import Path
 from unittest import mock
 
+import small_run
 from breast.cases.attempt import attempt
 from breast.cases.case_file import parse_case_file, read_case_file, setting_in
 from breast.cases.case_run import is_done, reason_of, run_case
@@ -220,6 +222,17 @@ def expanded(table, tumour=True):
     made = studies()
     made.add("own", table, "own.tsv")
     return rules_of(made, tumour)
+
+
+class Remembered(InFolder):
+    def test_a_stage_may_have_settings_or_none(self):
+        """In a rule of make as in all makefiles; without settings the times of its files alone decide."""
+        (self.folder / "Makefile").write_text(
+            f"BIN := {small_run.programs}\nRUN := .\nquoted = '$1'\nwith_settings := a b\ninclude {small_run.source}/pipelines/remember.mk\n"
+            "all:\n\t$(call stage,with) touch one\n\t$(call stage,without) touch $@\n")
+        subprocess.run(["make", "all"], cwd=self.folder, check=True, capture_output=True)
+        self.assertEqual((self.folder / ".with.settings").read_text().strip(), "a b")
+        self.assertTrue((self.folder / "one").exists() and (self.folder / "all").exists())
 
 
 class Variants(unittest.TestCase):

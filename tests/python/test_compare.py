@@ -4,6 +4,7 @@ import json
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -16,6 +17,9 @@ from breast.study.compare_page import compare_page
 from breast.study.compared_model import differences, options_of
 from breast.study.compared_runs import Pair
 from breast.study.table import parse_table
+
+sys.path.insert(0, str(small_run.source / "tests" / "page"))
+from browser import Browser, chromium  # noqa: E402
 
 
 def compared(*words):
@@ -47,11 +51,15 @@ class OnReports(unittest.TestCase):
     def test_numbers_and_what_differs(self):
         def view(force, friction):
             return {"side": "left", "command": f"compress r.vtkhdf cc.vtkhdf --view CC{friction}", "status": "converged",
-                    "force_N": force, "thickness_mm": 50, "landmarks": {"tumour": {"position": [1, 2, 3 + force], "error_estimate_mm": 0.25}}}
+                    "force_N": force, "thickness_mm": 50,
+                    "coverage": {"projected_cm2": force - 2.4, "contact_percent_of_projected": 108.2}, "landmarks": {"tumour": {"position": [1, 2, 3 + force], "error_estimate_mm": 0.25}}}
         pair = Pair(self.run_of("a", cc=view(80, "")), self.run_of("b", cc=view(90, " --friction 0.3")))
         rows = {row.quantity: row for row in pair.rows}
         self.assertEqual((rows["CC: force of the paddle"].first, rows["CC: force of the paddle"].difference), ("80.0", "+10.0"))
         self.assertEqual(rows["CC: thickness"].difference, "0.0")
+        # Contact on the rounded edge lies behind the image: as a share of the image it would be more than 100 %.
+        self.assertEqual(rows["CC: projection of the breast in the image"].first, "77.6")
+        self.assertEqual([row.quantity for row in pair.rows if row.unit == "%"], [])
         tumour = rows["tumour in CC"]
         self.assertEqual((tumour.second, tumour.difference, tumour.first_error), ("1.0 2.0 93.0", "10.00", "0.25"))
         self.assertEqual([(row.quantity, row.first, row.second) for row in pair.of_topic("model")],
@@ -148,6 +156,21 @@ class OnRuns(unittest.TestCase):
         self.assertEqual(compared(self.first, self.second, "--out", out)[0], 0)  # its own files are replaced
         (out / "compare.tsv").write_text("somebody's\tnotes\n")
         self.assertEqual(compared(self.first, self.second, "--out", out)[0], 2)
+
+    @unittest.skipUnless(chromium(), "no Chromium: apt-get install chromium")
+    def test_the_page_is_as_wide_as_the_screen(self):
+        """Of a monitor and of a phone: wide tables scroll in themselves, and no picture is cut."""
+        file = small_run.scratch("width") / "compare.html"
+        file.write_text(compare_page(self.pair))
+        browser = Browser(chromium(), 240)
+        self.addCleanup(browser.close)
+        for width in (1400, 390):
+            browser.size(width, 900, touch=width < 700)
+            browser.open(file.as_uri())
+            self.assertEqual(browser.value("[innerWidth, document.documentElement.scrollWidth]"), [width, width])
+            self.assertEqual(browser.value("[...document.querySelectorAll('img, table, p, li, h1, h2, h3')].filter(e => { const box = "
+                                           f"e.getBoundingClientRect(); return box.left < 0 || box.right > {width}; }}).length"), 0)
+            self.assertGreater(browser.value("Math.min(...[...document.images].map(e => e.getBoundingClientRect().width))"), 100)
 
     def test_refusals_are_one_line(self):
         for words in ((self.first, self.first), (self.first, self.first / "none"), (self.first, small_run.scratch("empty"))):

@@ -115,7 +115,13 @@ class OfARun(unittest.TestCase):
         from matplotlib.image import imread
         for view in ("cc", "mlo"):
             programs = imread(small_run.folder() / f"{view}.png")
-            np.testing.assert_allclose(hung(self.run_folder.mammograms[view]), programs, atol=1.1 / 65535)
+            np.testing.assert_array_equal(np.rint(65535 * hung(self.run_folder.mammograms[view])), np.rint(65535 * programs))
+
+    def test_a_mammogram_without_greys_is_refused(self):
+        image = self.run_folder.mammograms["cc"]
+        old = dataclasses.replace(image, images={name: values for name, values in image.images.items() if name != "grey"})
+        with self.assertRaisesRegex(breast.errors.BreastError, "cc.vti: holds no array grey; .*run project-mammogram again"):
+            hung(old)
 
     def test_the_wall_is_where_the_body_lies_on_it(self):
         mesh = self.run_folder.mesh

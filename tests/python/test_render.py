@@ -20,7 +20,9 @@ try:
     import vtkmodules  # noqa: F401
     from matplotlib.image import imread
     from PIL import Image
+    from breast.figures.colours import COLUMN
     from breast.figures.of_run import PICTURES
+    from breast.figures.states import moved_columns
 except ImportError as error:
     raise unittest.SkipTest(f"figures need python3-matplotlib and python3-vtk9 ({error})") from None
 
@@ -106,7 +108,7 @@ class Render(unittest.TestCase):
         small_run.tool("compress reference.vtkhdf closing.vtkhdf --view CC --reduction 30 --at-least 20 --states 2", self.folder)
         for name, count in (("turn", 3), ("closing", 2)):
             files = sorted(f"{name}-states/{file.name}" for file in (self.folder / f"{name}-states").glob("state_*.vtkhdf"))
-            self.drawn(f"{' '.join(files)} --figure states -o {name}.png")
+            self.drawn(f"{' '.join(files)} curve.vtp --figure states -o {name}.png")
             self.assertTrue(written_by_us(self.folder / f"{name}.png"))
             self.assertLess((self.folder / f"{name}.png").stat().st_size, 3e6 * count / 13)
             with Image.open(self.folder / f"{name}.png") as picture:
@@ -119,6 +121,12 @@ class Render(unittest.TestCase):
                 self.assertGreater(np.count_nonzero(np.abs(a - b).max(-1) > 0.1), 3000, "the body moves")
             for frame in frames:
                 self.assertGreater(np.count_nonzero(is_tumour(*np.moveaxis(frame, -1, 0))), 100, "the tumour is seen")
+                self.assertGreater(np.count_nonzero(np.abs(frame - COLUMN).max(-1) < 0.02), 60, "so is the tissue above its pixel")
+        curves = breast.load(self.folder / "curve.vtp")
+        last, (column,) = breast.load(self.folder / "closing.vtkhdf"), curves["column in CC"]
+        (moved,) = moved_columns(last, curves)
+        self.assertEqual(len(moved), len(column.points))
+        self.assertLess(np.abs(moved - column.points).max(), 0.02)
         self.refused("supine.vtkhdf --figure states -o no.png", "figure states needs the .vtkhdf of a folder NAME-states")
 
     def test_without_a_tumour_nothing_is_yellow(self):

@@ -34,7 +34,7 @@ $(TRUTH_AT)-coarse-cc.vtkhdf $(TRUTH_AT)-coarse-mlo.vtkhdf: $(TRUTH_AT)-coarse-%
   $$(call stale,$$(call truth_plates_record,$$*),$$(call truth_plates_settings,$$*))
 	$(call staged,$(call truth_plates_record,$*),$(call truth_plates_settings,$*),--keep $@) $(call truth_compress,$*) --reduction $(truth_reduction_$*)
 $(TRUTH_AT)-fine-cc.vtkhdf $(TRUTH_AT)-fine-mlo.vtkhdf: $(TRUTH_AT)-fine-%.vtkhdf: $(TRUTH_AT)-fine.vtkhdf $(TRUTH_AT)-coarse-%.vtkhdf $(COMPRESS)
-	$(call staged,$(call truth_plates_record,fine-$*),,--keep $@) $(call truth_compress,$*) $(call same_plates,$(TRUTH_AT)-coarse-$*.json)
+	$(call staged,$(call truth_plates_record,fine-$*),$(call truth_plates_settings,$*),--keep $@) $(call truth_compress,$*) $(call same_plates,$(TRUTH_AT)-coarse-$*.json)
 # The chain, compressed between plates with the distance and position of those of the truth.
 $(RUN)/truth-cc.vtkhdf $(RUN)/truth-mlo.vtkhdf: $(RUN)/truth-%.vtkhdf: $(RUN)/reference.vtkhdf $(TRUTH_TABLE) $(COMPRESS)
 	$(call pressed,truth-$*-of-chain) $(COMPRESS) $< $@ --view $(view_$*) $(call plates_of_truth,$*) $(addprefix --at-least ,$(AT_LEAST)) \

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "core/error.hpp"
+#include "matching/image_field.hpp"
 #include "matching/similarity.hpp"
 
 using namespace breast;
@@ -154,4 +155,21 @@ TEST(Align, ABreastElsewhereIsRefused) {
   const ImageAxes axes(header_of(pose().e_u, pose().e_v), pose(), "x");
   EXPECT_THROW(align_outlines(scene({1, 0, Vec2(-200, 300)}, 0, false), axes, "x"), Error);
   EXPECT_THROW(align_outlines({}, axes, "x"), Error);
+}
+
+// A large breast with a flat front, which ends 3 mm in front of the border: the border still shows air.
+TEST(ImageField, ABreastThatNearlyReachesTheBorderHasAirInFront) {
+  MammogramScan scan;
+  scan.header = header_of(pose().e_u, pose().e_v);
+  for (int row = 0; row < scan.header.rows; ++row) {
+    const double up = std::pow(std::abs(2.0 * row / scan.header.rows - 1), 2.5);
+    for (int column = 0; column < scan.header.columns; ++column) {
+      const bool inside = std::pow(column / 468.0, 2.5) + up < 1;
+      scan.grey.push_back(inside ? 0.4f + 0.5f * float(row) / float(scan.header.rows) : 0.0f);
+    }
+  }
+  const auto air = seen_air(scan, image_field(scan), "x");
+  ASSERT_TRUE(air.has_value());
+  EXPECT_TRUE(air->at_right);
+  EXPECT_FALSE(air->bright);
 }

@@ -6,11 +6,14 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkUnsignedCharArray.h>
+#include <vtkUnsignedShortArray.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
 #include "io/vtk/xml_file.hpp"
+#include "projection/display.hpp"
 
 namespace breast {
 
@@ -62,6 +65,13 @@ void check_pose(const ViewPose& pose, const std::string& where) {
   if (!((axes.transpose() * axes - Mat3::Identity()).norm() < 1e-6)) {
     throw input_error(where, ": FieldData n, e_u, e_v are not orthonormal");
   }
+}
+
+/// As shown, but in the order of the other arrays: a right breast is hung turned by half a circle.
+std::vector<std::uint16_t> grey_of(const Mammogram& image) {
+  std::vector<std::uint16_t> grey = hang(image).grey;
+  if (image.side == Side::right) std::ranges::reverse(grey);
+  return grey;
 }
 
 std::string content_of_image(const Mammogram& image) {
@@ -142,6 +152,7 @@ void write_mammogram(const std::filesystem::path& file, const Mammogram& image) 
   add_image<vtkFloatArray>(data, "thickness", image.thickness);
   add_image<vtkFloatArray>(data, "fibroglandular", image.fibroglandular);
   add_image<vtkUnsignedCharArray>(data, "through_back", image.through_back);
+  add_image<vtkUnsignedShortArray>(data, "grey", grey_of(image));
   vtkFieldData* fields = data->GetFieldData();
   add_text(fields, "schema", mammogram_schema);
   add_numbers(fields, "n", as_list(image.pose.n));

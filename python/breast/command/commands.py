@@ -7,12 +7,12 @@ from collections.abc import Iterable, Mapping
 from .installation import Installation
 
 COMMANDS = {
-    "run": "the whole chain on a breast MR scan",
-    "demo": "the whole chain on a simulated breast whose truth is known",
-    "page": "the page on which a point of one view shows its curve in the other, of a scan or of the simulated breast",
-    "cohort": "the whole chain on every case of a folder",
+    "run": "from a breast MR scan to the page of both mammographic views (the whole chain)",
+    "demo": "the same on a simulated breast whose true shapes are known",
+    "page": "only that page, on which a point of one view becomes a line in the other; of a scan or of the simulated breast",
+    "cohort": "the whole chain on every patient (case file) of a folder",
     "list": "list the tools, one per line",
-    "help": "help on a command, a tool or a setting; `help settings` lists the targets and settings of the pipeline",
+    "help": "help on a command, a tool or a setting; `help settings` lists what SETTING=value may be",
 }
 PIPELINE_COMMANDS = ("run", "demo", "page", "cohort")
 SUMMARY = "from a breast MR scan to a mechanical model: all tools and the pipeline under one name"
@@ -31,9 +31,9 @@ def tool_list(installation: Installation) -> str:
 def overview(installation: Installation) -> str:
     """The output of `breast help`."""
     return (f"breast - {SUMMARY}\n\nUsage: breast COMMAND|TOOL [ARGUMENT]...\n\nCommands:\n{_aligned(COMMANDS, '  ')}"
+            "\n`run` chains these tools: segment, fit-hermite, hexmesh, backward, forward, compress (CC, MLO), project-mammogram, cc2mlo,\n"
+            "match-lookup, tabulate.\n"
             f"\nTools:\n{_aligned(installation.tools, '  ')}"
-            "\nThe chain, which `run` makes: segment, fit-hermite, hexmesh, backward, forward, compress (CC, MLO), project-mammogram, "
-            "cc2mlo.\n"
             "\nExamples:\n  breast demo\n  breast run scan.nrrd\n  breast help compress\n"
             f"\nDocumentation: {installation.documentation}; manual pages: man breast, man breast-compress\n")
 

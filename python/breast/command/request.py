@@ -63,18 +63,18 @@ def _case_options(d: Declaration, r: PipelineRequest) -> None:
 
 def _declare_run(d: Declaration, r: PipelineRequest) -> None:
     d.paragraphs += [
-        "Runs the pipeline on a scan: segment, fit-hermite, hexmesh, backward, forward, compress in both views, project-mammogram, the "
-        "matching of both views, the figures and the page. Stages whose inputs and settings are unchanged are not run again.",
-        "Nothing but the scan must be given. Without --side, both breasts are modelled; one that the scan does not show is left out. Of a "
+        "Models the breasts of a scan, from its segmentation to both mammographic views, and ends with the path of the page, which shows "
+        "where the tumour, or any other place, lies in them. Only the scan must be given: the command prints what it assumed of the "
+        "rest, and how to change it. Stages whose inputs and settings are unchanged are not run again.",
+        "Without --side, both breasts are modelled; one that the scan does not show is left out. Of a "
         "DICOM folder the best series is taken (`breast help scan` has the rule), and a water image is read with the fat image of the same "
         f"size. A file of the tumour is found beside the scan by its name: {TUMOUR_RULE}. If both breasts are modelled, the tumour "
-        "belongs to the one whose nipple is nearer. The command prints what it assumed and how to change it, and ends with the path of "
-        "the page.",
+        "belongs to the one whose nipple is nearer.",
         "Settings of the form SETTING=value may follow the scan, such as TUMOUR=x,y,z, REDUCTION=40, CHEST_WALL=labels.nrrd or "
         "MATERIALS=wellman; `breast help settings` lists them. File names are relative to the current folder. A scan, or a file in a "
         "setting, whose name make cannot handle (blanks, quotes, brackets, ...) is accessed through a link with a plain name in "
         "DIR/.names; the name of the run's folder has underscores in place of such characters."]
-    d.positionals.append(Argument("text", (), "SCAN", "T1-weighted MR without fat saturation, patient prone: NRRD, NIfTI, MetaImage or a "
+    d.positionals.append(Argument("text", (), "SCAN", "T1-weighted MR in which fat is bright, patient prone: NRRD, NIfTI, MetaImage or a "
                                   "DICOM folder", store=_into(r, "scan")))
     d.options.append(Argument("choice", ("--side",), "NAME", "breast to model: the patient's left or right (default: both, if the scan "
                               "shows both)", choices=SIDES, store=_into(r, "side")))
@@ -83,7 +83,7 @@ def _declare_run(d: Declaration, r: PipelineRequest) -> None:
     d.examples += [("breast run scan.nrrd", "results in ./runs/scan-left and ./runs/scan-right, each with page.html"),
                    ("breast run scan.nrrd --side left", "results in ./runs/scan-left"),
                    ("breast run 'my scans/patient 1' --side right TUMOUR=-60,-40,12 --runs /data/runs",
-                    "a DICOM folder, and a tumour to follow")]
+                    "a DICOM folder, and a tumour to follow, at L, P, S in mm as DICOM and 3D Slicer's LPS have them")]
 
 
 def _declare_demo(d: Declaration, r: PipelineRequest) -> None:

@@ -39,8 +39,9 @@ FIGURES = {
                        "deformed .vtkhdf and the .vtp of identify --seen)", of_points=True),
     "compression": Figure("the shapes between the plates (from one or two compressed .vtkhdf)", True),
     "pressure": Figure("the contact pressure of paddle and detector on the skin (from one or two compressed .vtkhdf)", True),
-    "states": Figure("the equilibria on the way to a shape one after the other, with the ways of tumour and nipple, as an animated PNG "
-                     "(from the .vtkhdf of a folder NAME-states of forward or compress, in their order)", True),
+    "states": Figure("the equilibria on the way to a shape one after the other, with the ways of tumour and nipple and the tissue above "
+                     "the tumour's CC pixel, as an animated PNG (from the .vtkhdf of a folder NAME-states of forward or compress, in their "
+                     "order, and curve.vtp)", True),
     "force-thickness": Figure("the force of both plates during the compression (from a compressed .vtkhdf)"),
     "mammogram": Figure("the mammograms with axes in mm (from one or two .vti), optionally with curve, arc and tumour (from a curve "
                         ".vtp)"),

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from PIL import Image
 
+from .colours import Colour
 from .layout import Picture, mark
 
 _COLOURS = 192
@@ -17,9 +18,10 @@ _STEP, _FIRST, _LAST = 220, 900, 1800
 
 @dataclass
 class Animation:
-    """Pictures of one size, in their order."""
+    """Pictures of one size, in their order. lines: colours of what is thin, which stay as they are."""
 
     pictures: Iterable[Picture]
+    lines: Sequence[Colour] = ()
 
     def png(self) -> bytes:
         """An endless round of the pictures, all in the colours of the last and the first, marked as a file of libbreast."""
@@ -28,6 +30,7 @@ class Animation:
         both.paste(frames[0], (0, 0))
         both.paste(frames[-1], (0, frames[0].height))
         palette = both.quantize(_COLOURS, Image.Quantize.MEDIANCUT)
+        palette.putpalette([*palette.getpalette()[:3 * _COLOURS], *(round(255 * part) for colour in self.lines for part in colour)])
         small = [frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames]
         shown = [_FIRST, *[_STEP] * (len(small) - 2), _LAST][:len(small)]
         stream = io.BytesIO()

@@ -8,54 +8,27 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..curves import Line
+from ..errors import BreastError
 from ..mammogram import Mammogram
 from .colours import INK, TUMOUR, WHITE, Colour, Stroke
 from .inputs import Inputs, need
 from .layout import RING, SMALL, Panel, Picture
 
-_UNKNOWN_GREY = 28000 / 65535  # between fat and dense tissue
-_GAMMA, _THIN_EXPONENT, _SOFT = 2, 0.2, 2
 _CURVE, _ARC = Stroke((0.1, 0.9, 0.4), 3), Stroke((0.35, 0.65, 1.0), 2.2, (3, 1.6))
 _AXIS = 76  # pixels beside the image
 _DIM: Colour = (0.85, 0.85, 0.85)
 
 
-def _at_rank(values: np.ndarray, rank: float, fallback: float) -> float:
-    if not len(values):
-        return fallback
-    place = int(rank * (len(values) - 1))
-    return float(np.partition(values, place)[place])
-
-
 def hung(image: Mammogram) -> np.ndarray:
-    """Grey from 0 to 1 (nv, nu) in rows from the top, as clinics hang a mammogram; libbreast/projection/display has the reasons.
+    """Grey from 0 to 1 (nv, nu) in rows from the top, as clinics hang a mammogram and project-mammogram shades it.
 
     The chest wall is at the left edge for a left breast and at the right edge for a right one; lateral (CC) or superior (MLO, ML)
-    is at the top; dense tissue is bright. Pixels without a value are an even grey.
+    is at the top; dense tissue is bright. Pixels without a value are an even grey. Raises BreastError for an image without greys.
     """
-    path, thickness = image.images["path"], image.images["thickness"]
-    back, tissue = image.images["through_back"] != 0, thickness > 0
-    first = int(np.clip(image.plate_edge_mm / image.pixel_mm, 0, path.shape[1] - 1))
-    between = thickness[:, first:][tissue[:, first:]]
-    level = _at_rank(between if len(between) else thickness[tissue], 0.75, 1)
-    ratio = np.where(tissue, level / np.where(tissue, thickness, 1), 0)
-    shown = np.where(tissue, path * np.where(ratio < 1, ratio, ratio**_THIN_EXPONENT), 0)
-    breast = shown[(shown > 0) & ~back]
-    bright = _at_rank(breast if len(breast) else shown[shown > 0], 0.998, 1)
-    grey = np.clip(shown / bright, 0, 1) ** _GAMMA
-    blank = back & ~tissue
-    grey = _softened(np.where(blank, _UNKNOWN_GREY, grey), blank)
+    if "grey" not in image.images:
+        raise BreastError("holds no array grey", image.file, "it is of an older version: run project-mammogram again")
+    grey = image.images["grey"] / 65535
     return grey if image.side == "left" else grey[::-1, ::-1]
-
-
-def _softened(grey: np.ndarray, unknown: np.ndarray) -> np.ndarray:
-    """Averages across the border of the unknown part, so that it has no steps."""
-    def box(field: np.ndarray) -> np.ndarray:
-        padded = np.pad(field, _SOFT)
-        rows, columns = field.shape
-        return sum(padded[j : j + rows, i : i + columns] for j in range(2 * _SOFT + 1) for i in range(2 * _SOFT + 1))
-    count, flagged = box(np.ones(grey.shape)), box(unknown.astype(float))
-    return np.where((flagged > 0) & (flagged < count), box(grey) / count, grey)
 
 
 class _Hanging:

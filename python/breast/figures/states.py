@@ -7,12 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..curves import Line
 from ..state import State
 from ..views import image_frame
 from .animation import Animation
 from .body import (add_body, add_plates, compression_words, from_below, has_tumour, lateral_view, place_of, plate_view, tumour_words,
                    two_plates)
-from .colours import INK, SHAPES, TUMOUR, Colour, Stroke
+from .colours import COLUMN, INK, SHAPES, TUMOUR, Colour, Stroke
 from .inputs import Inputs, need
 from .layout import RING, SMALL, Panel, Picture
 from .scene import Camera, Scene
@@ -33,8 +34,19 @@ class _View:
     flat: np.ndarray
 
 
-def _scene(state: State) -> Scene:
+def moved_columns(state: State, curves: dict[str, list[Line]]) -> list[np.ndarray]:
+    """The tissue that lies above each point asked for in CC, lines (n, 3) LPS mm in a state; what lies in no element is left out.
+
+    Between the plates of the other view it is the curve, seen along the beam.
+    """
+    lines = (state.transport(line.points, "imaged", "points", within=1.0) for line in curves.get("column in imaged", []))
+    return [line.points[line.inside] for line in lines if np.count_nonzero(line.inside) > 1]
+
+
+def _scene(state: State, curves: dict[str, list[Line]]) -> Scene:
     scene = Scene()
+    for column in moved_columns(state, curves):  # first, as in the figure matching
+        scene.tube(column, 1.0, COLUMN, through=True)
     add_body(scene, state, state.points, _SKIN, gland_opacity=_GLAND)
     if state.contact:
         add_plates(scene, state, state.points, two_plates(state), _PLATES)
@@ -85,8 +97,9 @@ def _add_gravity(panel: Panel, state: State) -> None:
     panel.text(_ARROW_AT + [0.5 * _ARROW + 8, 0], words, SMALL, INK)
 
 
-def _pictures(states: list[State]) -> Iterator[Picture]:
-    scenes = [_scene(state) for state in states]
+def _pictures(states: list[State], curves: dict[str, list[Line]]) -> Iterator[Picture]:
+    scenes = [_scene(state, curves) for state in states]
+    column = "; green: the tissue above its CC pixel" if curves.get("column in imaged") else ""
     everything = np.concatenate([scene.shown() for scene in scenes])
     views = [_View(camera, words, camera.flat(everything)) for camera, words in _cameras(states[-1])]
     for k, (state, scene) in enumerate(zip(states, scenes)):
@@ -95,7 +108,7 @@ def _pictures(states: list[State]) -> Iterator[Picture]:
         head.caption(_words(states, k))
         panels = [picture.panel(n / len(views), 0, (n + 1) / len(views), 0.93) for n in range(len(views))]
         for panel, view in zip(panels, views):
-            panel.caption(f"{view.words}{'; ' + tumour_words(state) if tumour_words(state) else ''}")
+            panel.caption(f"{view.words}{'; ' + tumour_words(state) if tumour_words(state) else ''}{column}")
         scale = max(panel.needed(view.flat) for panel, view in zip(panels, views))
         for panel, view in zip(panels, views):
             panel.still(scene, view.camera, view.flat, scale)
@@ -109,4 +122,4 @@ def _pictures(states: list[State]) -> Iterator[Picture]:
 
 def draw(inputs: Inputs) -> Animation:
     need(len(inputs.states) > 1, "states", "the .vtkhdf of a folder NAME-states, in their order")
-    return Animation(_pictures(inputs.states))
+    return Animation(_pictures(inputs.states, inputs.curves), [COLUMN, TUMOUR, SHAPES[2].colour])

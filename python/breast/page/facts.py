@@ -136,7 +136,7 @@ def facts_of_breast(labels_report: StageReport, compressions: list[StageReport])
     if volume is not None:
         facts.append(Fact("volume_ml", "Volume", f"{volume:.0f} ml"))
     if density is not None:
-        facts.append(Fact("density", "Density", f"{density:.1f} % gland by volume: {density_class(density)}",
+        facts.append(Fact("density", "Density", f"{density:.1f} % gland by volume; class {density_class(density)}",
                           "class by volumetric limits 4.5, 7.5 and 15.5 %, not by eye"))
     for report in compressions:
         thickness, force, angle = (report.number(key) for key in ("thickness_mm", "force_N", "angle_deg"))

@@ -231,7 +231,7 @@ def _answer(views: Views, lines: list[MatchedLine | None]) -> list[str]:
     without = _not_counted(views)
     if without and any(line and line.to_either_side_mm > 0 for line in lines):
         said.append(f"Not counted in the 90 %: {without}.")
-    return [*said, "The ring marks where the model has it. That is known from the MR; one mammogram alone does not show the depth."]
+    return [*said, "The ring marks its place in the MR, moved by the model. A mammogram alone does not show depth, hence the line."]
 
 
 def _not_counted(views: Views) -> str:

@@ -48,7 +48,7 @@ class _Number:
 _OF_VIEW = (_Number("thickness", "mm", "thickness_mm", 1), _Number("reduction of thickness", "%", "reduction_percent", 1),
             _Number("force of the paddle", "N", "force_N", 1), _Number("force of the detector", "N", "detector_force_N", 1),
             _Number("mean pressure", "kPa", "pressure_kPa", 2), _Number("contact area of the paddle", "cm2", "area_cm2", 1),
-            _Number("contact, of the projection", "%", "coverage/contact_percent_of_projected", 1),
+            _Number("projection of the breast in the image", "cm2", "coverage/projected_cm2", 1),
             _Number("volume in the image", "%", "coverage/volume_percent", 1),
             _Number("nipple to the edge of the image", "mm", "coverage/nipple_in_front_mm", 1),
             _Number("nipple to the muscle", "mm", "coverage/nipple_to_muscle_mm", 1))

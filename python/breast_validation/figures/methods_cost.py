@@ -17,9 +17,9 @@ def draw(inputs: Inputs) -> Picture:
     table = Table(inputs.tables[0])
     method, seconds, error = np.array(table.texts("method")), table.numbers("cpu_s"), table.numbers("error_mm")
     measured = table.texts("measured")
-    picture = Picture(1100, 720)
+    picture = Picture(1100, 760)
     panel = picture.panel(0, 0, 1, 1)
-    panel.caption("Error against CPU time, one mark for each mesh; what an error is measured against stands behind the method")
+    panel.caption("Error against CPU time, one mark a mesh or a pitch of lookups; what errors are measured against stands behind the method")
     axes = panel.plot_axes("CPU time (s)", "error (mm)", "xy")
     for k, name in enumerate(dict.fromkeys(method)):
         rows = np.flatnonzero(method == name)
@@ -28,5 +28,5 @@ def draw(inputs: Inputs) -> Picture:
                   label=f"{name} ({measured[rows[0]]})")
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), ncols=2, fontsize=points(SMALL), frameon=False)
     box = axes.get_position()
-    axes.set_position((box.x0, box.y0 + 0.11, box.width, box.height - 0.11))
+    axes.set_position((box.x0, box.y0 + 0.13, box.width, box.height - 0.13))
     return picture
