@@ -156,7 +156,6 @@ TEST(CornerVolume, ForwardFromProneToSupineTakesFewIterations) {
   const Equilibrium supine = solve_forward(mesh, -prone, options);
   ASSERT_TRUE(supine.converged()) << supine.record.reason;
   EXPECT_LE(supine.newton_iterations, 12);
-  std::printf("its %d fact %d\n", supine.newton_iterations, supine.factorisations);
 }
 
 // In coarse elements under a heavy load single corners are flattened until they fold, although the elements

@@ -122,7 +122,8 @@ namespace {
 // Gradients of the shape functions at the nodes and quadrature points of an element.
 std::vector<HexShape> places_to_check(int order) {
   std::vector<HexShape> places;
-  for (int a = 0; a < (order == 1 ? 8 : 27); ++a) places.push_back(hex_shape(order, hex_node_local(order, a)));
+  for (int a = 0; a < (order == 1 ? 8 : 27); ++a)
+    places.push_back(hex_shape(order, hex_node_local(order, a)));
   const auto add = [&](const auto& points) {
     for (const Vec3& local : points) places.push_back(hex_shape(order, local));
   };
