@@ -10,8 +10,8 @@
 # may stand, are not told: a run may be sent to somebody.
 named = $(if $1,$(notdir $(patsubst %/,%,$1)):$(shell printf %s '$1' | sha256sum | cut -c1-12))
 record_file = $(or $($1_record),$(RUN)/.$1.settings)
-stale = $(if $(subst x$(strip $(file < $1))x,,x$(strip $2)x),FORCE)
-# A stage that is made again by the times of its files alone has no settings.
+# A stage without settings of its own is made again by the times of its files alone.
+stale = $(if $(subst x$(strip $(file < $1))x,,x$(or $(strip $2),none)x),FORCE)
 staged = @$(BIN)/cases stage $1 $(call quoted,$(or $(strip $2),none)) $3 --quiet --
 named_stage = $(call staged,$(call record_file,$1),$($1_settings),$2)
 # In the folder of a study's row: the same, with the row's own options. A solve may end early, and what needed it with it.

@@ -59,13 +59,15 @@ lookups := $(foreach pitch,16 8 4 2 1,$(RUN)/lookups/pitch-$(pitch).h5)
 default_plates = $(call study_dir,friction)/friction-0.3
 errors-tables: $(BIN)/tabulate $(BIN)/match-lookup
 	@+$(MAKE) -f $(PIPELINE) STUDY=tests/bench/friction.tsv study
-	$(tabulate) plates $(call study_dir,friction) friction-0.3 friction-0.2 friction-0.3 friction-0.4 > $(TABLES_OF_PAGE)/friction.tsv
+	$(tabulate) plates $(call study_dir,friction) friction-0.3 friction-0.2 friction-0.3 friction-0.4 > $(TABLES_OF_PAGE)/friction.tsv.part
+	mv $(TABLES_OF_PAGE)/friction.tsv.part $(TABLES_OF_PAGE)/friction.tsv
 	$(tabulate) made $(TABLES_OF_PAGE)/friction.tsv $(default_plates)/cc.json
 	@mkdir -p $(RUN)/lookups
 	for file in $(lookups); do \
 	  pitch=$${file##*-}; \
 	  $(BIN)/match-lookup $(default_plates)/cc.vtkhdf $(default_plates)/mlo.vtkhdf $$file --pitch $${pitch%.h5} --report $${file%.h5}.json $(share); done
-	$(tabulate) lookup-cost $(lastword $(lookups)) $(filter-out $(lastword $(lookups)),$(lookups)) > $(TABLES_OF_PAGE)/lookup-cost.tsv
+	$(tabulate) lookup-cost $(lastword $(lookups)) $(filter-out $(lastword $(lookups)),$(lookups)) > $(TABLES_OF_PAGE)/lookup-cost.tsv.part
+	mv $(TABLES_OF_PAGE)/lookup-cost.tsv.part $(TABLES_OF_PAGE)/lookup-cost.tsv
 	$(tabulate) made $(TABLES_OF_PAGE)/lookup-cost.tsv $(RUN)/lookups/pitch-1.json
 	$(tabulate) pages fill $(PAGES_WITH_TABLES)
 .PHONY: errors-tables

@@ -120,10 +120,10 @@ void declare(Tool& tool, Choices& c) {
               0, 500);
   tool.text(
       c.image_edge, "--image-edge", "auto|MM",
-      "place the plates as in the clinic, by the edge of the image, where their rounded edge "
-      "starts: this far in front of the chest wall behind the breast (its most anterior point), or of "
-      "the muscle on it. This is the default for a breast that slides on its chest wall; otherwise, or "
-      "if --standoff is given, --standoff places the plates. auto, for CC: 5; if the rounded edges then "
+      "place the plates as in the clinic: distance of the image's edge, where their rounded edge "
+      "starts, in front of the chest wall behind the breast (its most anterior point), or of the "
+      "muscle on it. auto is the default for a breast that slides on its chest wall; otherwise, or if "
+      "--standoff is given, --standoff places the plates. auto, for CC: 5; if the rounded edges then "
       "carry 40 % of a plate's force, 7.5, and then 10. auto, for MLO and ML: 0, or with a layer of "
       "muscle, 1.25 times its thickness behind its front. With this option, the defaults of --turn, "
       "--lean, --bend, --edge-radius, --contact-points, --friction, --positioning and --pull are those "

@@ -131,7 +131,7 @@ int main(int argc, char** argv) {
       "pair that does not belong together is refused with one line and exit code 2. Tools in C++ "
       "check their files themselves; this is for programs in other languages, as render is. With "
       "all instead of a tool, each file alone is read with the checks of all tools; its name is "
-      "then labels, geometry or mesh.");
+      "then that of its kind: labels, geometry, mesh, image, surface or curves.vtp.");
   tool.word(choices.tool, "all|TOOL", "the pairs of all tools, or of one");
   tool.texts(
       choices.files, "--check", "NAME=FILE",

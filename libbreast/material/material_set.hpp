@@ -36,7 +36,7 @@ struct MaterialSet {
   std::string name;
   std::array<Law, n_tissues> laws;
   std::array<double, n_tissues> density;  ///< g/mm^3
-  /// Bulk modulus with which the corners of an element resist changes of volume, Pa; 0: they do not
+  /// Bulk modulus with which the corners of an element (of 27 nodes: all of them) resist changes of volume, Pa; 0: they do not
   /// (mechanics/terms/corner_volume.hpp).
   std::array<double, n_tissues> corner_bulk{};
   SkinBehaviour skin;

@@ -29,10 +29,11 @@ class BackwardSolve {
         steps_(loaded_, solver_, solve_reference_by(solver_), fail_fast, "backward", found_,
                progress) {
     if (!scene_.corners_resist()) return;
-    yielding_ = std::make_unique<LoadedProblem>(
-        scene_.problem_with_yielding_corners(Eigen::VectorXd::Zero(3L * mesh.nodes())));
-    first_steps_ = std::make_unique<BackwardSteps>(*yielding_, solver_, solve_reference_by(solver_),
-                                                   fail_fast, "backward", found_, progress);
+    soft_corners_ = std::make_unique<LoadedProblem>(
+        scene_.problem_with_soft_corners(Eigen::VectorXd::Zero(3L * mesh.nodes())));
+    first_steps_ =
+        std::make_unique<BackwardSteps>(*soft_corners_, solver_, solve_reference_by(solver_),
+                                        fail_fast, "backward", found_, progress);
   }
 
   Equilibrium run(const Vec3& gravity);
@@ -56,7 +57,7 @@ class BackwardSolve {
   SaddleSolver solver_;
   BackwardSteps steps_;
   // The same body with corners that yield; null if they never resist.
-  std::unique_ptr<LoadedProblem> yielding_;
+  std::unique_ptr<LoadedProblem> soft_corners_;
   std::unique_ptr<BackwardSteps> first_steps_;
 };
 

@@ -37,7 +37,8 @@ LoadReached follow_load(const LoadSteps& steps, State& state) {
   while (!reached.whole()) {
     const double next = std::min(1.0, reached.part + step);
     steps.set_load(next);
-    State trial = step == 1 && steps.guess ? *steps.guess : state;
+    const bool first = reached.part == 0 && step == 1;
+    State trial = first && steps.guess ? *steps.guess : state;
     reached.last = steps.solve(trial, reached.part, next);
     if (reached.last.converged) {
       state = std::move(trial);

@@ -23,7 +23,7 @@ std::shared_ptr<const LevelSurface> wall_surface(const HexMesh& mesh,
 }
 
 // Of the resistance of corners, in a problem from whose solution that with all of it is found.
-constexpr double yielding = 0.3;
+constexpr double soft = 0.3;
 
 void check(const HexMesh& mesh) {
   if (mesh.elements() == 0) throw input_error("mesh: no elements");
@@ -119,8 +119,8 @@ LoadedProblem Scene::problem(const Eigen::VectorXd& force) const {
   return problem_with(corners_, force);
 }
 
-LoadedProblem Scene::problem_with_yielding_corners(const Eigen::VectorXd& force) const {
-  return problem_with(make_corner_volume(mesh_, options_, *solid_->space(), yielding), force);
+LoadedProblem Scene::problem_with_soft_corners(const Eigen::VectorXd& force) const {
+  return problem_with(make_corner_volume(mesh_, options_, *solid_->space(), soft), force);
 }
 
 LoadedProblem Scene::problem_with(const std::shared_ptr<const Term>& corners,

@@ -68,7 +68,7 @@ class Scene {
   LoadedProblem problem(const Eigen::VectorXd& force) const;
   /// The same, but the corners of elements resist changes of volume less: a problem with a close solution
   /// that is easier to find. They do resist, so that no element of this solution is turned inside out.
-  LoadedProblem problem_with_yielding_corners(const Eigen::VectorXd& force) const;
+  LoadedProblem problem_with_soft_corners(const Eigen::VectorXd& force) const;
   bool corners_resist() const { return corners_ != nullptr; }
   /// Nodal gravity forces, µN (3 per node), from the imaged shape, with those of the supports'
   /// loads. `gravity`: mm/s², LPS.

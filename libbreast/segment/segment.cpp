@@ -327,7 +327,7 @@ std::string refusal_of_reading(Read&& read) {
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::input) throw;
     const std::string reason = error.what();
-    return reason.substr(0, reason.find(": give "));
+    return reason.substr(0, reason.find(ways_out_begin));
   }
 }
 

@@ -76,8 +76,8 @@ struct Segmentation {
   Vec3 nipple_base{0, 0, 0};  ///< patient mm, on the areola's surface beneath the tip
   double papilla_height = 0;  ///< mm; 0 on a smooth dome
   double cut_by_view_cm2 = 0, flat_skin_cm2 = 0;  ///< of the breast (plausibility.hpp)
-  double front_left_out_percent = 0, lateral_border_mm = 0, nipple_depth_mm = 0,
-         view_behind_sternum_mm = 0;     ///< Extents
+  double front_left_out_percent = 0, lateral_border_mm = 0, nipple_depth_mm = 0;  ///< Extents
+  double view_behind_sternum_mm = 0;                                              ///< Extents
   Contrast kind = Contrast::fat_bright;  ///< of the scan that shows the tissues
   FatContrast contrast;                  ///< of that scan
   double exchanged_percent = 0;          ///< of the breast, where water and fat of a Dixon scan are

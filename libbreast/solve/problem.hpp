@@ -64,7 +64,7 @@ class Problem {
   /// Worst |θ| of an element over its volume in the imaged shape: zero in a solution,
   /// also of a compressible body, whose volume does change.
   double volume_residual(const Forces& forces) const;
-  /// An element that is not positive in both shapes at its corners and quadrature points; −1: none.
+  /// An element that is not positive in both shapes at its nodes and quadrature points; −1: none.
   /// A state with such an element is not accepted.
   int folded_element(const State& state) const;
   /// Force (µN) that rounding of the positions alone can cause, below which no residual can be

@@ -35,7 +35,7 @@ class Term {
   virtual bool add(const State& state, const Request& request, Forces& forces) const = 0;
   /// The nodes whose positions it depends on and whose forces it changes, ascending.
   virtual std::vector<int> nodes() const = 0;
-  /// An element that is not positive in both shapes at its corners and quadrature points; −1 if
+  /// An element that is not positive in both shapes at its nodes and quadrature points; −1 if
   /// there is none, as for terms without elements.
   virtual int folded_element(const State&) const { return -1; }
 };

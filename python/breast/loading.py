@@ -85,5 +85,5 @@ def load_scan(path: str | os.PathLike[str], series: int = 0) -> Volume:
         return volume
     with tempfile.TemporaryDirectory(prefix="breast-scan-") as folder:
         copy = Path(folder) / "scan.nrrd"
-        done_on(path, "scan", [str(path), str(copy), "--series", str(series)])
+        done_on(path, "scan", [str(path.absolute()), str(copy), "--series", str(series)])
         return replace(load_scan(copy), file=path)

@@ -11,11 +11,17 @@ from pathlib import Path
 from .errors import BreastError, Failed
 
 
+_ONLY_OURS = "fit-hermite"
+"""By this program a folder is known as ours: other packages have a `scan`, too."""
+
+
 def program(name: str) -> Path:
     """A program: beside the running one, or that of the installation or of the build to which this package belongs. Raises Failed."""
     here = Path(__file__).resolve()
-    folders = [Path(sys.argv[0]).resolve().parent, *(above / "libexec/breast" for above in here.parents),
-               here.parents[2] / "build/release/bin"]
+    folders = [*(above / "libexec/breast" for above in here.parents), here.parents[2] / "build/release/bin"]
+    beside = Path(sys.argv[0]).resolve().parent
+    if sys.argv[0] and os.access(beside / _ONLY_OURS, os.X_OK):
+        folders.insert(0, beside)
     found = next((folder / name for folder in folders if os.access(folder / name, os.X_OK)), None)
     if found is None:
         raise Failed(f"the program {name} is not installed", here.parent, "install the programs with the package, or build them: make -f "

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from .document import read_only
-from .errors import BreastError
+from .errors import BreastError, Failed
 from .programs import done_on
 
 Arrays = dict[str, "np.ndarray | list[str]"]
@@ -55,13 +55,15 @@ class VtkXml:
         return BreastError(what, self.file, "make it again")
 
     def _check(self, wanted: str) -> None:
-        refusal = self.refuse("was changed after it was written")
+        refusals = [] if _CHECKED_AS[wanted] else [self.refuse("was changed after it was written")]
         for name in _CHECKED_AS[wanted]:
             try:
                 return done_on(self.file, "pairs", ["all", f"--check={name}={self.file}"])
+            except Failed:
+                raise
             except BreastError as error:
-                refusal = error
-        raise refusal
+                refusals.append(error)
+        raise refusals[0]
 
     @property
     def points(self) -> np.ndarray:

@@ -42,7 +42,7 @@ def external(file: h5py.File) -> None:
 MESH_DAMAGE = {
     "nan": (set_value("VTKHDF/Points", np.nan, (3, 1)), r"Points\[3,1\] is nan, must be finite"),
     "far": (set_value("VTKHDF/PointData/imaged", 2e6, (5, 2)), r"imaged\[5"),
-    "schema": (attribute("breast", "schema", b"mesh/2"), r"schema"),
+    "schema": (attribute("breast", "schema", b"mesh/2"), r"states no schema"),
     "units": (attribute("breast", "units", b"SI"), r"units is 'SI', must be 'mm-g-s'"),
     "tissue": (set_value("VTKHDF/CellData/tissue", 7), r"tissue\[0\] is 7"),
     "missing": (removed("VTKHDF/PointData/imaged"), r"imaged is missing"),

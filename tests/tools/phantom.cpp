@@ -152,6 +152,7 @@ TEST(PhantomTool, SuppressedFatInWideVoxelsIsNotTakenForBright) {
   EXPECT_EQ(said.exit_code, 2);
   EXPECT_EQ(said.error_lines(), 1) << said.err;
   EXPECT_NE(said.err.find("fat is saturated"), std::string::npos) << said.err;
+  ASSERT_NE(said.err.find(": give "), std::string::npos) << said.err;
   EXPECT_EQ(said.err.find(": give "), said.err.rfind(": give ")) << said.err;
 }
 

@@ -15,7 +15,7 @@ std::string refusal_of_suppressed(const SuppressedFat& fat, const FatContrast& s
 }
 
 std::string ways_out(bool half_of_dixon, bool by_wall) {
-  return message(": give ",
+  return message(ways_out_begin,
                  half_of_dixon ? "the water image as MR and the fat image as --fat, " : "",
                  "a T1 series without fat saturation as MR or beside this one (--also), ",
                  by_wall ? "the chest wall (--chest-wall), " : "",

@@ -12,6 +12,9 @@ namespace breast {
 /// Why the wall of a scan with suppressed fat cannot be taken from it, `shown` as one with bright fat; empty if it can.
 std::string refusal_of_suppressed(const SuppressedFat& fat, const FatContrast& shown);
 
+/// With these words the ways out begin in a refusal.
+inline constexpr const char* ways_out_begin = ": give ";
+
 /// ": give ...": what a user can do where no contrast is found that shows the wall, or if the scan may be half of a
 /// Dixon scan. A chest wall serves where a scan can have suppressed fat.
 std::string ways_out(bool half_of_dixon, bool by_wall = true);

@@ -46,7 +46,7 @@ SuppressedFat find_suppressed_wall(Work& work, Progress& progress, Timer& timer)
 void show_gland(Work& work, const Volume<float>& scan, Images& images, SuppressedFat& fat);
 
 /// What muscle shows a scan to be in which fat is not bright: fat is suppressed, or does not show at all, as in the water
-/// image of a Dixon scan, where muscle is more than 4.5 times as bright. Unknown where muscle is not brighter than fat,
+/// image of a Dixon scan, where muscle is more than 4.5 times as bright. Unknown where muscle is less than 1.2 times as bright as fat,
 /// or nothing is left in which it could be measured.
 enum class DarkFat { unknown, suppressed, silent };
 DarkFat dark_fat(const SuppressedFat& fat);
