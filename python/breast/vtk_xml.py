@@ -40,6 +40,8 @@ class VtkXml:
             self._check(wanted)
         elif hashlib.sha256(content[:seal.start()]).hexdigest().encode() != seal[1]:
             raise self.refuse("is damaged: its text disagrees with the digest at its end")
+        elif content[seal.end():].strip() != b"</VTKFile>":
+            raise self.refuse("is damaged: behind its digest stands more, or less, than the end of a VTK file")
         if f'type="{wanted}"'.encode() not in content[:1000]:
             raise self.refuse(f"is no VTK file of the kind {wanted}")
         try:
