@@ -19,7 +19,7 @@ def draw(inputs: Inputs) -> Picture:
     measured = table.texts("measured")
     picture = Picture(1100, 760)
     panel = picture.panel(0, 0, 1, 1)
-    panel.caption("Error against CPU time, one mark a mesh or a pitch of lookups; what errors are measured against stands behind the method")
+    panel.caption("Error against CPU time, one mark per mesh or per pitch of a lookup; in brackets: what the error is measured against")
     axes = panel.plot_axes("CPU time (s)", "error (mm)", "xy")
     for k, name in enumerate(dict.fromkeys(method)):
         rows = np.flatnonzero(method == name)
