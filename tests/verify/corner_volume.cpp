@@ -141,21 +141,24 @@ TEST(CornerVolume, ElementsOf27NodesStayRegularInAHeavySoftBody) {
   EXPECT_LT(most, 0.5);
 }
 
-// The other way from the scan, a heavy soft body starts with a part of the scan's displacement.
+// The other way from the scan, a heavy soft body starts with a part of the scan's displacement (from rest: 15 iterations).
 TEST(CornerVolume, ForwardFromProneToSupineTakesFewIterations) {
   fixtures::CapSettings settings;
+  settings.elements = 4;
+  settings.order = 2;
   settings.base = 190;
   settings.depth = 110;
   settings.with_cut = true;
   HexMesh mesh = fixtures::cap(settings);
   MechanicsOptions options;
+  options.element = Element::q2p1;
   options.materials = load_materials("invivo-borders");
   const Equilibrium back = solve_backward(mesh, prone, options);
   ASSERT_TRUE(back.converged()) << back.record.reason;
   mesh.reference = back.reference;
   const Equilibrium supine = solve_forward(mesh, -prone, options);
   ASSERT_TRUE(supine.converged()) << supine.record.reason;
-  EXPECT_LE(supine.newton_iterations, 12);
+  EXPECT_LE(supine.newton_iterations, 11);
 }
 
 // In coarse elements under a heavy load single corners are flattened until they fold, although the elements
