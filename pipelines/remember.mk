@@ -10,7 +10,7 @@
 # may stand, are not told: a run may be sent to somebody.
 named = $(if $1,$(notdir $(patsubst %/,%,$1)):$(shell printf %s '$1' | sha256sum | cut -c1-12))
 record_file = $(or $($1_record),$(RUN)/.$1.settings)
-# A stage without settings of its own is made again by the times of its files alone.
+# Only the times of its files decide whether a stage without settings is made again.
 stale = $(if $(subst x$(strip $(file < $1))x,,x$(or $(strip $2),none)x),FORCE)
 staged = @$(BIN)/cases stage $1 $(call quoted,$(or $(strip $2),none)) $3 --quiet --
 named_stage = $(call staged,$(call record_file,$1),$($1_settings),$2)

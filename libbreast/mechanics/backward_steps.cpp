@@ -23,9 +23,9 @@ BackwardSteps::BackwardSteps(LoadedProblem& loaded, SaddleSolverBase& solver,
       log_(found, progress),
       inverse_(loaded.problem, solver, std::move(solve_reference), fail_fast, found.timer) {}
 
-NewtonResult BackwardSteps::attempt(State& state, double from, double to) {
+NewtonResult BackwardSteps::attempt(State& state, double from, double to, double tolerance) {
   NewtonResult result =
-      inverse_.solve(state, tolerance_, log_.begin_step(name_, from, to, tolerance_));
+      inverse_.solve(state, tolerance, log_.begin_step(name_, from, to, tolerance));
   found_.residual = result.residual;
   found_.min_det_F = inverse_.min_det_F();
   return result;
@@ -43,26 +43,26 @@ bool BackwardSteps::stays(const State& state) {
 
 bool BackwardSteps::stands(const Eigen::VectorXd& load, State state) {
   loaded_.set_load(load);
-  return attempt(state, 0, 1).converged && stays(state);
+  return attempt(state, 0, 1, inverse_tolerance).converged && stays(state);
 }
 
-LoadReached BackwardSteps::follow(const Eigen::VectorXd& load, State& state) {
+LoadReached BackwardSteps::follow(const Eigen::VectorXd& load, State& state, double tolerance) {
   LoadSteps steps;
   steps.divide = !fail_fast_;
   steps.set_load = [&](double part) { loaded_.set_load(part * load); };
-  steps.solve = [&](State& trial, double from, double to) { return attempt(trial, from, to); };
+  steps.solve = [&](State& trial, double from, double to) {
+    return attempt(trial, from, to, tolerance);
+  };
   return follow_load(steps, state);
 }
 
 void BackwardSteps::approach(const Eigen::VectorXd& load, State& state) {
-  tolerance_ = rough_tolerance;
   State near = state;
-  if (follow(load, near).whole()) state = std::move(near);
-  tolerance_ = inverse_tolerance;
+  if (follow(load, near, rough_tolerance).whole()) state = std::move(near);
 }
 
 void BackwardSteps::run(const Eigen::VectorXd& load, State& state) {
-  const LoadReached reached = follow(load, state);
+  const LoadReached reached = follow(load, state, inverse_tolerance);
   found_.stable = reached.part > 0 ? stays(state) : true;
   judge(reached);
 }

@@ -28,13 +28,12 @@ class BackwardSteps {
   InverseSolver& inverse() { return inverse_; }
 
  private:
-  LoadReached follow(const Eigen::VectorXd& load, State& state);
-  NewtonResult attempt(State& state, double from, double to);
+  LoadReached follow(const Eigen::VectorXd& load, State& state, double tolerance);
+  NewtonResult attempt(State& state, double from, double to, double tolerance);
   bool stays(const State& state);
   void judge(const LoadReached& reached);
 
   LoadedProblem& loaded_;
-  double tolerance_ = inverse_tolerance;
   SaddleSolverBase& solver_;
   bool fail_fast_;
   std::string name_;

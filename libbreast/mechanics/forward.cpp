@@ -31,7 +31,7 @@ class ForwardSolve {
     SaddleSolver solver;
   };
 
-  std::optional<State> guess(const Eigen::VectorXd& load) const;
+  std::optional<State> guess(const Eigen::VectorXd& load, State rest) const;
   std::unique_ptr<Workspace> workspace(const Eigen::VectorXd& load);
   ForwardSteps steps(Workspace& work) {
     return {work.loaded, work.solver, work.matrix, fail_fast_, "forward", found_, progress_};
@@ -56,13 +56,12 @@ void ForwardSolve::estimate(Workspace& work, const State& state, const Vec3& gra
 // A load against that of the scan moves the body about the other way. Newton's method needs only a small part of
 // it: at rest skin lies between wrinkled and taut, and a start beyond this kink halves the factorisations of heavy
 // breasts. Three tenths are too far for them.
-std::optional<State> ForwardSolve::guess(const Eigen::VectorXd& load) const {
+std::optional<State> ForwardSolve::guess(const Eigen::VectorXd& load, State rest) const {
   constexpr double part = 0.15;
-  State state = scene_.at_rest(flatten(mesh_.reference));
-  const Eigen::VectorXd scanned = flatten(mesh_.imaged) - state.reference;
+  const Eigen::VectorXd scanned = flatten(mesh_.imaged) - rest.reference;
   if (!(load.dot(scanned) < 0)) return {};
-  state.x -= part * scanned;
-  return state;
+  rest.x -= part * scanned;
+  return rest;
 }
 
 std::unique_ptr<ForwardSolve::Workspace> ForwardSolve::workspace(const Eigen::VectorXd& load) {
@@ -82,7 +81,7 @@ Equilibrium ForwardSolve::run(const Vec3& gravity) {
   const Eigen::VectorXd load = scene_.gravity_force(gravity);
   State state = scene_.at_rest(flatten(mesh_.reference));
   auto work = workspace(load);
-  const NewtonResult last = steps(*work).run(load, state, guess(load));
+  const NewtonResult last = steps(*work).run(load, state, guess(load, state));
   note_solver(work->solver, work->matrix, found_);
   if (!found_.stable && !fail_fast_) {
     note_instability(find_instability(work->loaded.problem, state, work->matrix, work->solver),

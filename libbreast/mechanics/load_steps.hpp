@@ -21,8 +21,7 @@ struct LoadSteps {
   /// Solves for the load `to`, starting at the solution for `from`; on success `state` is the new
   /// solution.
   std::function<NewtonResult(State& state, double from, double to)> solve;
-  /// A state near the solution for the whole load, if one is known: the first attempt starts there, and
-  /// only that one.
+  /// A state near the solution for the whole load, if one is known. Only the first attempt starts there.
   std::optional<State> guess;
   /// Whether a step that fails is divided.
   bool divide = true;

@@ -104,6 +104,23 @@ TEST(CornerVolume, BackwardClosesInFewIterations) {
   EXPECT_LT(worst, 1e-7);
 }
 
+HexMesh heavy_cap() {
+  fixtures::CapSettings settings;
+  settings.elements = 4;
+  settings.order = 2;
+  settings.base = 190;
+  settings.depth = 110;
+  settings.with_cut = true;
+  return fixtures::cap(settings);
+}
+
+MechanicsOptions soft_options() {
+  MechanicsOptions options;
+  options.element = Element::q2p1;
+  options.materials = load_materials("invivo-borders");
+  return options;
+}
+
 Mat3 jacobian(const HexMesh& mesh, const std::vector<Vec3>& shape_points, int e,
               const HexShape& at) {
   Mat3 sum = Mat3::Zero();
@@ -115,16 +132,8 @@ Mat3 jacobian(const HexMesh& mesh, const std::vector<Vec3>& shape_points, int e,
 // Where the pressure is many times the shear modulus, the middle of an edge between corners that resist would turn
 // inside out (beyond 97 % of this load).
 TEST(CornerVolume, ElementsOf27NodesStayRegularInAHeavySoftBody) {
-  fixtures::CapSettings settings;
-  settings.elements = 4;
-  settings.order = 2;
-  settings.base = 190;
-  settings.depth = 110;
-  settings.with_cut = true;
-  HexMesh mesh = fixtures::cap(settings);
-  MechanicsOptions options;
-  options.element = Element::q2p1;
-  options.materials = load_materials("invivo-borders");
+  const HexMesh mesh = heavy_cap();
+  const MechanicsOptions options = soft_options();
   const Equilibrium back = solve_backward(mesh, 1.5 * prone, options);
   ASSERT_TRUE(back.converged()) << back.record.reason;
   EXPECT_LE(back.newton_iterations, 16);
@@ -143,16 +152,8 @@ TEST(CornerVolume, ElementsOf27NodesStayRegularInAHeavySoftBody) {
 
 // The other way from the scan, a heavy soft body starts with a part of the scan's displacement (from rest: 15 iterations).
 TEST(CornerVolume, ForwardFromProneToSupineTakesFewIterations) {
-  fixtures::CapSettings settings;
-  settings.elements = 4;
-  settings.order = 2;
-  settings.base = 190;
-  settings.depth = 110;
-  settings.with_cut = true;
-  HexMesh mesh = fixtures::cap(settings);
-  MechanicsOptions options;
-  options.element = Element::q2p1;
-  options.materials = load_materials("invivo-borders");
+  HexMesh mesh = heavy_cap();
+  const MechanicsOptions options = soft_options();
   const Equilibrium back = solve_backward(mesh, prone, options);
   ASSERT_TRUE(back.converged()) << back.record.reason;
   mesh.reference = back.reference;
