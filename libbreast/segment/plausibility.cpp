@@ -78,29 +78,42 @@ double view_behind_sternum(const Work& work) {
   return median(std::move(behind), 0);
 }
 
+/// As Extents::front_left_out_percent. Above and below the breast, what lies in front of the sternal skin is neck,
+/// shoulder or abdomen, of which a scan shows as much as its field of view.
+double front_left_out(const Work& work, Side side) {
+  const Grid& grid = work.scan.grid;
+  const int nx = grid.size[0], towards = side == Side::left ? 1 : -1;
+  double front = 0, left_out = 0;
+  for (int k = 0; k < grid.size[2]; ++k) {
+    const auto row = work.extent.columns.begin() + std::ptrdiff_t(k) * nx;
+    if (std::none_of(row, row + nx, [](auto column) { return column != 0; })) continue;
+    for (int i = 0; i < nx; ++i) {
+      if ((i - work.torso.midline) * towards <= 0) continue;
+      for (int j = 0; j < grid.size[1] && j * grid.spacing[1] < work.torso.cleft[k]; ++j) {
+        front += work.body.mask.at(i, j, k);
+        left_out += work.body.mask.at(i, j, k) && !work.breast.at(i, j, k);
+      }
+    }
+  }
+  return front > 0 ? 100 * left_out / front : 0;
+}
+
 }  // namespace
 
 Extents extents_of(const Work& work, const Vec3& nipple, Side side) {
   const Grid& grid = work.scan.grid;
   Extents found;
-  double front = 0, left_out = 0, breast = 0;
+  double breast = 0;
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int i = 0; i < grid.size[0]; ++i) {
       const double aside =
           (i - work.torso.midline) * grid.spacing[0] * (side == Side::left ? 1 : -1);
       if (work.extent.columns[std::size_t(k) * grid.size[0] + i])
         found.lateral_border_mm = std::max(found.lateral_border_mm, aside);
-      for (int j = 0; j < grid.size[1]; ++j) {
-        breast += work.breast.at(i, j, k);
-        if (!(aside > 0 && j * grid.spacing[1] < work.torso.cleft[k]) ||
-            !work.body.mask.at(i, j, k))
-          continue;
-        front += 1;
-        left_out += !work.breast.at(i, j, k);
-      }
+      for (int j = 0; j < grid.size[1]; ++j) breast += work.breast.at(i, j, k);
     }
   }
-  found.front_left_out_percent = front > 0 ? 100 * left_out / front : 0;
+  found.front_left_out_percent = front_left_out(work, side);
   found.view_behind_sternum_mm = view_behind_sternum(work);
   found.volume_ml = breast * grid.voxel_volume() / mm3_per_ml;
   const Vec3 at = grid.to_index(nipple);
