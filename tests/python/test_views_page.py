@@ -296,7 +296,7 @@ class WhatIsSaid(unittest.TestCase):
         views = dataclasses.replace(self.views, origin="none", pairs=[(image, without(state)) for image, state in self.views.pairs],
                                     body=without(self.views.body))
         page = views_page(self.run_folder, views)
-        self.assertIn("No tumour was given for this breast. Point at any place", words_of(page))
+        self.assertIn("No tumour was given for this breast. On a screen, point at any place", words_of(page))
         self.assertNotIn('data-key="clock"', page)
         self.assertIn('data-key="density"', page)
 

@@ -213,8 +213,8 @@ def _answer(views: Views, lines: list[MatchedLine | None]) -> list[str]:
         return [f"{alone}, no place can be followed from one view to the other."]
     names = [image.view for image, _ in views.pairs]
     if views.origin == "none":
-        return [f"No tumour was given for this breast. Point at any place of {names[0]} or {names[1]} below to see on which line of the "
-                "other view it lies."]
+        return [f"No tumour was given for this breast. On a screen, point at any place of {names[0]} or {names[1]} below to see on which "
+                "line of the other view it lies."]
     the = "The tumour" if views.origin == "given" else "The artificial tumour"
     said = []
     for (here, there), line in zip((names, names[::-1]), lines[::-1]):
