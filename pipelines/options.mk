@@ -5,7 +5,7 @@
 no_tumour := $(if $(findstring --tumour,$(HEXMESH_OPTIONS)),$(findstring --tumour none,$(HEXMESH_OPTIONS)),$(filter none,$(TUMOUR)))
 # `cases check` refuses in one line values that no program would accept, a target that the case cannot have, a folder that belongs to
 # another scan, and a case that another make makes with other settings.
-settings := $(filter-out \#% setting,$(shell cut -f 1 $(PIPELINES)/settings.tsv))
+settings := $(shell grep -o '^[A-Z0-9_]*' $(PIPELINES)/settings.tsv)
 facts := installed=$(if $(INSTALLED),yes) phantom=$(phantom) body_slides=$(body_slides) no_tumour=$(if $(no_tumour),yes)
 $(call said,$(shell $(BIN)/cases check $(PIPELINES) $(if $(planning),0,$$PPID) $(call quoted,goals=$(goals)) $(call quoted,given=$(given)) \
   $(facts) $(foreach s,$(settings),$(call quoted,$s=$($s))) --quiet 2>&1))

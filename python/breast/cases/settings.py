@@ -16,7 +16,7 @@ from ..errors import BreastError
 from ..output import write_text
 from .case_file import read_case_file
 from .claim import claim_run
-from .goals import CaseKind, Goals
+from .goals import Goals
 from .scan_identity import mixed_up
 from .settings_table import Setting, check_characters, check_choice, read_settings
 
@@ -100,8 +100,7 @@ def check_case(request: CaseRequest) -> None:
     _refuse_empty("CASE", case)
     if case.startswith(".") or "/" in case:
         raise BreastError(f"CASE: '{case}' is not a plain name of a folder below {request.value('RUNS')}")
-    goals.check(CaseKind(bool(request.value("installed")), phantom, not request.value("no_tumour"), bool(request.value("body_slides")),
-                         bool(request.value("PAPER")), request.value("CLUSTER") == "slurm"), request.value("PRESET"))
+    goals.check(request.values)
     if goals.about_case():
         reason = mixed_up(run, request.value("SIDE"), f"phantom:{request.value('PRESET')}" if phantom else request.value("MR"))
         if reason:
