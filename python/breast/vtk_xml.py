@@ -24,14 +24,14 @@ _CHECKED_AS = {"ImageData": ["image"], "PolyData": ["surface", "curves.vtp"], "U
 
 
 class VtkXml:
-    """A file of the kind `wanted` (PolyData, ImageData, UnstructuredGrid): `data` is VTK's data set.
+    """A file of the kind `wanted` (PolyData, ImageData, UnstructuredGrid): `kind` says which, `data` is VTK's data set.
 
     Raises BreastError, one line, when it is damaged or of another kind, when it was edited and the programs refuse it, and when VTK's
     Python modules are not installed.
     """
 
     def __init__(self, file: Path, wanted: str) -> None:
-        self.file = file
+        self.file, self.kind = file, wanted
         if not file.is_file():
             raise self.refuse("is not a file")
         content = file.read_bytes()
