@@ -9,6 +9,7 @@ from typing import Any
 from ..errors import BreastError
 from ..labels import read_labels
 from ..loading import load
+from ..text_table import read_table
 from ..volume import Volume
 from .inputs import Inputs
 from .of_run import PICTURES, RunPicture, pictures_of
@@ -19,7 +20,7 @@ def inputs_of_figure(files: Sequence[Path], scan: Volume | None, labels: Path | 
     inputs = Inputs(scan=scan, labels=read_labels(labels) if labels else None)
     for file in files:
         if file.suffix == ".tsv":
-            inputs.tables.append(str(file))
+            inputs.tables.append(read_table(file))
         else:
             _add(inputs, file, _read(file))
     return inputs
