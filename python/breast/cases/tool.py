@@ -47,8 +47,8 @@ def _case_file(words: list[str], run: Run) -> str:
               "refuses a value that no program would accept, a target (goals) that the case cannot have, a folder RUN of another scan, "
               "and a case that another process makes with other settings; 0: a plan, which makes nothing")
 def _check_case(words: list[str], run: Run) -> None:
-    from .settings import CaseRequest, check_case
-    check_case(CaseRequest(Path(words[0]), int(parse_number(words[1], "check: MAKE_PID")), dict(map(_named_value, words[2:]))))
+    from .settings import check_case
+    check_case(Path(words[0]), int(parse_number(words[1], "check: MAKE_PID")), dict(map(_named_value, words[2:])))
 
 
 def _entries(words: list[str]) -> list[CohortEntry]:
