@@ -54,8 +54,8 @@ class StudyRules:
     """The rules of all rows of studies.
 
     Args:
-        variables: of make, that have the options of each column. run: folder of the case. tumour: whether the case has one to follow. place: shell command that prints the place of the tumour in a
-            mesh, given its report.
+        variables: of make, that have the options of each column. run: folder of the case. tumour: whether the case has one to follow.
+            place: shell command that prints the place of the tumour in a mesh, given its report.
     """
 
     def __init__(self, studies: Studies, rules: dict[str, ChainRule], variables: dict[str, str], run: str, tumour: bool, place: str) -> None:
