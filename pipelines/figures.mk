@@ -24,7 +24,7 @@ of_states := $(addprefix $(RUN)/states/,supine.vtkhdf cc.vtkhdf mlo.vtkhdf)
 $(foreach shape,supine cc mlo,$(eval $(shape)-states_settings = $$($(shape)_settings) --states $$(STATES)))
 $(RUN)/states/supine.vtkhdf: $(RUN)/reference.vtkhdf $(FORWARD) $(MADE_MATERIALS) $(call changed,supine-states)
 	@mkdir -p $(@D)
-	$(call stage,supine-states) $(FORWARD) $< $@ --posture supine $(its_model) --states $(STATES) $(common)
+	$(call stage,supine-states) $(FORWARD) $< $@ --posture supine $(model) --states $(STATES) $(common)
 $(RUN)/states/cc.vtkhdf $(RUN)/states/mlo.vtkhdf: $(RUN)/states/%.vtkhdf: $(RUN)/reference.vtkhdf $(RUN)/%.vtkhdf $(COMPRESS) $(MADE_MATERIALS) \
   $$(call changed,$$*-states)
 	@mkdir -p $(@D)

@@ -5,7 +5,7 @@
 no_tumour := $(if $(findstring --tumour,$(HEXMESH_OPTIONS)),$(findstring --tumour none,$(HEXMESH_OPTIONS)),$(filter none,$(TUMOUR)))
 # `cases check` refuses in one line values that no program would accept, a target that the case cannot have, a folder that belongs to
 # another scan, and a case that another make makes with other settings.
-settings := $(filter-out \#% setting,$(shell cut -f 1 $(PIPELINES)/settings.tsv))
+settings := $(shell grep -o '^[A-Z0-9_]*' $(PIPELINES)/settings.tsv)
 facts := installed=$(if $(INSTALLED),yes) phantom=$(phantom) body_slides=$(body_slides) no_tumour=$(if $(no_tumour),yes)
 $(call said,$(shell $(BIN)/cases check $(PIPELINES) $(if $(planning),0,$$PPID) $(call quoted,goals=$(goals)) $(call quoted,given=$(given)) \
   $(facts) $(foreach s,$(settings),$(call quoted,$s=$($s))) --quiet 2>&1))
@@ -54,42 +54,33 @@ of_the_plates = $(addprefix $(RUN)/,$1.vti $1.png $1-sensitivity.vtkhdf $1-sensi
 # Contours for checking the labels; a program that replaces segment need not draw them.
 contours := $(if $(filter $(BIN)/segment,$(SEGMENT)),--overlay $(RUN)/contours.png)
 
-# What a row of a study may change, each a column of its table (studies.mk).
-study_columns := segment fit hexmesh prone mechanics wall cut compress plates slopes materials content
-its_segment = $(SEGMENT_OPTIONS)
-its_fit = $(FIT_OPTIONS)
-its_hexmesh = $(HEXMESH_OPTIONS)
-its_prone = $(PRONE)
-its_mechanics = $(MECHANICS)
-its_wall = $(WALL)
-its_cut = $(CUT)
-its_compress = $(COMPRESS_OPTIONS)
-its_slopes := fat,fibroglandular,skin
-its_materials = $(MATERIALS)
-its_content = $(content_MATERIALS)
+# What a row of a study may change: each column of its table, and the variable that has other options in the row's folder (studies.mk).
+study_columns := segment:SEGMENT_OPTIONS fit:FIT_OPTIONS hexmesh:HEXMESH_OPTIONS prone:PRONE mechanics:MECHANICS wall:WALL cut:CUT \
+  compress:COMPRESS_OPTIONS plates:true_plates slopes:slopes_of materials:MATERIALS content:content_MATERIALS
+slopes_of := fat,fibroglandular,skin
 
 # The options of the stages, and what is remembered of them: program, options, contents of files that users edit.
-its_model = $(its_mechanics) $(addprefix --wall ,$(its_wall)) $(addprefix --cut ,$(its_cut))
+model = $(MECHANICS) $(SUPPORT)
 labels_options = --side $(SIDE) $(addprefix --series ,$(SERIES)) $(addprefix --fat ,$(FAT)) $(addprefix --also ,$(ALSO)) \
-  $(addprefix --chest-wall ,$(CHEST_WALL)) $(its_segment)
+  $(addprefix --chest-wall ,$(CHEST_WALL)) $(SEGMENT_OPTIONS)
 labels_settings = $(SEGMENT) $(call named,$(MR)) $(labels_options) $(content_FAT) $(content_ALSO) $(content_CHEST_WALL)
-geometry_settings = $(FIT_HERMITE) $(its_fit)
-mesh_options = $(its_hexmesh) $(if $(findstring --tumour,$(its_hexmesh)),,--tumour $(TUMOUR))
+geometry_settings = $(FIT_HERMITE) $(FIT_OPTIONS)
+mesh_options = $(HEXMESH_OPTIONS) $(if $(findstring --tumour,$(HEXMESH_OPTIONS)),,--tumour $(TUMOUR))
 mesh_settings = $(HEXMESH) $(mesh_options) $(content_TUMOUR)
-reference_options = $(its_prone) $(its_model)
-reference_settings = $(BACKWARD) $(reference_options) $(its_content)
-supine_settings = $(FORWARD) $(its_model) $(its_content)
+reference_options = $(PRONE) $(model)
+reference_settings = $(BACKWARD) $(reference_options) $(content_MATERIALS)
+supine_settings = $(FORWARD) $(model) $(content_MATERIALS)
 # The plates have the distance that the case asks for, or their true positions.
-plates_for = $(if $(its_plates),$(call plates_of_truth,$1),$(STOPS))
-press = $(addprefix --at-least ,$(AT_LEAST)) $(its_compress) $(its_model)
+plates_for = $(if $(true_plates),$(call plates_of_truth,$1),$(STOPS))
+press = $(addprefix --at-least ,$(AT_LEAST)) $(COMPRESS_OPTIONS) $(model)
 cc_options = $(call plates_for,cc) $(press)
-cc_settings = $(COMPRESS) $(if $(its_plates),,$(STOPS)) $(press) $(its_content)
+cc_settings = $(COMPRESS) $(if $(true_plates),,$(STOPS)) $(press) $(content_MATERIALS)
 mlo_options = $(call plates_for,mlo) $(press)
 mlo_settings = $(cc_settings)
 cc-mammogram_settings = $(PROJECT) $(PROJECT_OPTIONS)
 mlo-mammogram_settings = $(cc-mammogram_settings)
 curve_settings = $(CC2MLO)
-slopes_options = $(its_prone) $(its_model) --parameters $(its_slopes)
+slopes_options = $(PRONE) $(model) --parameters $(slopes_of)
 slopes_settings = $(BIN)/sensitivity $(slopes_options)
 
 # Options of every program: its report and its share of the cores. Where all others wait, a stage has all (but not in a cohort).

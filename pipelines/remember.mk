@@ -11,8 +11,9 @@
 named = $(if $1,$(notdir $(patsubst %/,%,$1)):$(shell printf %s '$1' | sha256sum | cut -c1-12))
 record_file = $(or $($1_record),$(RUN)/.$1.settings)
 # Only the times of its files decide whether a stage without settings is made again.
-stale = $(if $(subst x$(strip $(file < $1))x,,x$(or $(strip $2),none)x),FORCE)
-staged = @$(BIN)/cases stage $1 $(call quoted,$(or $(strip $2),none)) $3 --quiet --
+recorded = $(or $(strip $1),none)
+stale = $(if $(subst x$(strip $(file < $1))x,,x$(call recorded,$2)x),FORCE)
+staged = @$(BIN)/cases stage $1 $(call quoted,$(call recorded,$2)) $3 --quiet --
 named_stage = $(call staged,$(call record_file,$1),$($1_settings),$2)
 # In the folder of a study's row: the same, with the row's own options. A solve may end early, and what needed it with it.
 changed_in = $(call stale,$1/.$2.settings,$($2_settings))

@@ -22,8 +22,8 @@ RUNS ?= runs
 include $(if $(CASE_FILE),$(call said,$(shell $(BIN)/cases case-file $(PIPELINES) $(CASE_FILE) $(RUNS)/.make --quiet 2>&1)))
 
 # The settings and their defaults. Another value is given on the command line (make -f Makefile.pipeline MATERIALS=wellman), in a case
-# file, or in the environment; the first of these counts. help.txt says what each does, settings.tsv what it accepts; those of its
-# settings that have no default here are empty, but for those of the targets of the source tree (tests/*.mk).
+# file, or in the environment; the first of these counts. settings.tsv says what each does and accepts; those that have no default here
+# are empty, but for those of the targets of the source tree (tests/*.mk).
 
 # ---- the case ----------------------------------------------------------------------------------------------
 PRESET ?= $(if $(PAPER)$(filter $(goals_of_paper),$(goals)),paper,average)

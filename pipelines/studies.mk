@@ -21,7 +21,7 @@ tables_of_studies := $(join $(studies:%=%=),$(own_studies)) scaled-as-printed=$(
   $(addprefix $(study_name)=,$(study_file))
 study_rules := $(RUNS)/.make/$(notdir $(RUN))-studies.mk
 $(call said,$(shell $(BIN)/cases studies $(study_rules) $(PIPELINE) $(RUN) 'supine $(if $(no_tumour),cc mlo,curve)' '$(tabulate) place' \
-  $(foreach c,$(study_columns),'@$c=$(strip $(its_$c))') '{tumour={tumour}' $(foreach p,$(placeholders),'{$p=$(strip $($p))') \
+  $(foreach c,$(study_columns),'@$c=$(strip $($(lastword $(subst :, ,$c))))') '{tumour={tumour}' $(foreach p,$(placeholders),'{$p=$(strip $($p))') \
   $(tables_of_studies) --quiet 2>&1))
 include $(study_rules)
 

@@ -31,10 +31,17 @@ def read_curves(file: str | os.PathLike[str]) -> dict[str, list[Line]]:
 
     Raises BreastError for a damaged file or one of another schema.
     """
-    xml = VtkXml(Path(file), "PolyData")
-    schema = xml.fields().get("schema")
-    if schema != ["curves/1"]:
-        raise xml.refuse(f"has schema {schema or 'none'}, must be 'curves/1'")
+    return curves_of(VtkXml(Path(file), "PolyData"))
+
+
+def holds_curves(xml: VtkXml) -> bool:
+    return xml.fields().get("schema") == ["curves/1"]
+
+
+def curves_of(xml: VtkXml) -> dict[str, list[Line]]:
+    """The same of a file that has been read."""
+    if not holds_curves(xml):
+        raise xml.refuse(f"has schema {xml.fields().get('schema') or 'none'}, must be 'curves/1'")
     points, data = xml.points, {name: a for name, a in xml.group("PointData").items() if isinstance(a, np.ndarray)}
     cells = [line for kind in ("Verts", "Lines") for line in xml.cells(kind)]
     names = xml.group("CellData").get("name", [str(n) for n in range(len(cells))])

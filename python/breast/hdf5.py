@@ -25,18 +25,14 @@ SCHEMAS = tuple(_MAKERS)
 
 
 def file_schema(file: str | os.PathLike[str]) -> str:
-    """Schema of a file, "" where it states none of those that are read. Raises BreastError when it is damaged.
-
-    Of an edited file, which HDF5 may not read before `pairs` has, it is guessed from the bytes.
-    """
+    """Schema of a file by its bytes, which HDF5 may not read before they are checked; whoever reads the file checks it, and that it has
+    this schema. "" where it states none of those that are read. Raises BreastError for a damaged file in which none is found."""
     path = _existing(file)
     content = path.read_bytes()
-    if not check_seal(path, content, "make it again"):
-        return next((schema for schema in SCHEMAS if schema.encode() in content), "")
-    with h5py.File(io.BytesIO(content), "r") as h5:
-        stated = h5["breast"].attrs.get("schema", b"") if "breast" in h5 else b""
-    schema = stated.decode("utf-8") if isinstance(stated, bytes) else str(stated)
-    return schema if schema in SCHEMAS else ""
+    found = next((schema for schema in SCHEMAS if schema.encode() in content), "")
+    if not found:
+        check_seal(path, content, "make it again")
+    return found
 
 
 def read_document(file: str | os.PathLike[str], schema: str, only: tuple[str, ...] = ("",)) -> Document:

@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, Callable
 
-from .curves import read_curves
+from .curves import curves_of, holds_curves
 from .errors import BreastError
 from .geometry import read_geometry
 from .hdf5 import SCHEMAS, file_schema
@@ -23,15 +23,15 @@ from .state_file import read_state
 from .tables import read_table
 from .volume import Volume
 from .vtk_xml import VtkXml
-from .xml_mesh import read_xml_mesh
+from .xml_mesh import read_xml_mesh, xml_mesh_of
 
 _BY_SCHEMA: dict[str, Callable[[Path], Any]] = {"mesh/1": read_state, "labels/1": read_labels, "geometry/1": read_geometry,
                                                 "lookup/1": read_lookup}
 
 
 def _read_vtp(path: Path) -> Any:
-    curves = VtkXml(path, "PolyData").fields().get("schema") == ["curves/1"]
-    return read_curves(path) if curves else read_xml_mesh(path)
+    xml = VtkXml(path, "PolyData")
+    return curves_of(xml) if holds_curves(xml) else xml_mesh_of(xml)
 
 
 _BY_ENDING: dict[str, Callable[[Path], Any]] = {

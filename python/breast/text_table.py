@@ -57,7 +57,7 @@ class Table:
     def column(self, name: str) -> int:
         if name in self.columns:
             return self.columns.index(name)
-        raise BreastError(f"{self.name} has no column '{name}'; it has: {', '.join(self.columns)}")
+        raise BreastError(f"has no column '{name}'", self.name, f"it has: {', '.join(self.columns)}")
 
     def cell(self, row: int, column: str) -> str:
         return self.rows[row][self.column(column)]
@@ -65,6 +65,16 @@ class Table:
     def number(self, row: int, column: str) -> float:
         """A cell that must be a number; raises BreastError naming table, row (from 1) and column."""
         return parse_number(self.cell(row, column), f"{self.name}, row {row + 1}, {column}")
+
+    def texts(self, column: str) -> list[str]:
+        """A column, "" where there is no value."""
+        at = self.column(column)
+        return ["" if row[at] == NO_VALUE else row[at] for row in self.rows]
+
+    def numbers(self, column: str) -> list[float]:
+        """A column of numbers, NaN where there is no value; raises BreastError naming a cell that is no number."""
+        where = f"{self.name}, {column}"
+        return [parse_number(cell.removeprefix("+"), where) if cell else math.nan for cell in self.texts(column)]
 
     def records(self) -> list[dict[str, str]]:
         """The rows as dicts by column, "" where there is no value."""

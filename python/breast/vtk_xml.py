@@ -14,30 +14,29 @@ from typing import Any
 import numpy as np
 
 from .document import read_only
-from .errors import BreastError, Failed
+from .errors import BreastError
 from .programs import done_on
 
 Arrays = dict[str, "np.ndarray | list[str]"]
 _SEAL = re.compile(rb"<!-- sha256 of everything above: ([0-9a-f]{64}) -->")
-_CHECKED_AS = {"ImageData": ["image"], "PolyData": ["surface", "curves.vtp"], "UnstructuredGrid": []}
-"""The names by which pairs knows the files of a kind."""
+_LINES = re.compile(rb'NumberOfLines="[1-9]')
 
 
 class VtkXml:
-    """A file of the kind `wanted` (PolyData, ImageData, UnstructuredGrid): `data` is VTK's data set.
+    """A file of the kind `wanted` (PolyData, ImageData, UnstructuredGrid): `kind` says which, `data` is VTK's data set.
 
     Raises BreastError, one line, when it is damaged or of another kind, when it was edited and the programs refuse it, and when VTK's
     Python modules are not installed.
     """
 
     def __init__(self, file: Path, wanted: str) -> None:
-        self.file = file
+        self.file, self.kind = file, wanted
         if not file.is_file():
             raise self.refuse("is not a file")
         content = file.read_bytes()
         seal = _SEAL.search(content)
         if seal is None:
-            self._check(wanted)
+            self._check(wanted, content)
         elif hashlib.sha256(content[:seal.start()]).hexdigest().encode() != seal[1]:
             raise self.refuse("is damaged: its text disagrees with the digest at its end")
         elif content[seal.end():].strip() != b"</VTKFile>":
@@ -56,16 +55,12 @@ class VtkXml:
     def refuse(self, what: str) -> BreastError:
         return BreastError(what, self.file, "make it again")
 
-    def _check(self, wanted: str) -> None:
-        refusals = [] if _CHECKED_AS[wanted] else [self.refuse("was changed after it was written")]
-        for name in _CHECKED_AS[wanted]:
-            try:
-                return done_on(self.file, "pairs", ["all", f"--check={name}={self.file}"])
-            except Failed:
-                raise
-            except BreastError as error:
-                refusals.append(error)
-        raise refusals[0]
+    def _check(self, wanted: str, content: bytes) -> None:
+        # The names by which pairs knows the files of a kind: of polygonal data, only curves have lines.
+        names = {"ImageData": "image", "PolyData": "curves.vtp" if _LINES.search(content) else "surface"}
+        if wanted not in names:
+            raise self.refuse("was changed after it was written")
+        done_on(self.file, "pairs", ["all", f"--check={names[wanted]}={self.file}"])
 
     @property
     def points(self) -> np.ndarray:

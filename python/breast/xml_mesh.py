@@ -41,18 +41,21 @@ class XmlMesh:
 def read_xml_mesh(file: str | os.PathLike[str]) -> XmlMesh:
     """A .vtp or .vtu of the toolkit. Raises BreastError for a damaged file, and for one whose SPACE is not LPS."""
     path = Path(file)
-    surface = path.name.lower().endswith(".vtp")
-    xml = VtkXml(path, "PolyData" if surface else "UnstructuredGrid")
+    return xml_mesh_of(VtkXml(path, "PolyData" if path.name.lower().endswith(".vtp") else "UnstructuredGrid"))
+
+
+def xml_mesh_of(xml: VtkXml) -> XmlMesh:
+    """The same of a file that has been read."""
     fields = xml.fields()
     if fields.get("SPACE", ["LPS"]) != ["LPS"]:
         raise xml.refuse(f"is in {fields['SPACE']}, must be in LPS")
-    if surface:
+    if xml.kind == "PolyData":
         parts = {kind: xml.cells(kind) for kind in _KINDS}
         cells = [cell for part in parts.values() for cell in part]
         types = np.array([_KINDS[kind].get(len(cell), _OTHERWISE[kind]) for kind, part in parts.items() for cell in part])
     else:
         cells, types = xml.cells("Cells"), vtk_array(xml.data.GetCellTypesArray())
-    return XmlMesh(path, xml.points, _by_type(cells, types), types.astype(np.int64), xml.group("PointData"), xml.group("CellData"), fields)
+    return XmlMesh(xml.file, xml.points, _by_type(cells, types), types.astype(np.int64), xml.group("PointData"), xml.group("CellData"), fields)
 
 
 def _by_type(cells: list[np.ndarray], types: np.ndarray) -> dict[int, np.ndarray | list[np.ndarray]]:

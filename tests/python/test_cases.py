@@ -215,7 +215,8 @@ def studies():
 
 
 def rules_of(made, tumour=True):
-    return StudyRules(made, chain_rules(CHAIN), "run", tumour, "tabulate place").text()
+    variables = {"hexmesh": "HEXMESH_OPTIONS", "mechanics": "MECHANICS", "materials": "MATERIALS", "content": "content_MATERIALS"}
+    return StudyRules(made, chain_rules(CHAIN), variables, "run", tumour, "tabulate place").text()
 
 
 def expanded(table, tumour=True):
@@ -241,19 +242,19 @@ class Variants(unittest.TestCase):
                         "soft\t-\treference\tsupine\t-\t+--scale fat=50\t{RUN}/own.tsv\t-\n"
                         "fine\tsoft\tmesh\treference supine\t--tumour {tumour}:0.1\t-\t-\tsoft\n")
         for line in ("own_variants := soft fine", "V := $(RUN)/studies/own/soft",
-                     "$V/%: private its_mechanics := --materials run/own.tsv --element q1p0 --scale fat=50",
-                     "$V/%: private its_materials := run/own.tsv",
+                     "$V/%: private override MECHANICS := --materials run/own.tsv --element q1p0 --scale fat=50",
+                     "$V/%: private override MATERIALS := run/own.tsv",
                      "$V/reference.json: $(RUN)/mesh.vtkhdf $(RUN)/labels.vtkhdf $(BACKWARD) $(RUN)/own.tsv $$(call changed_in,$$(@D),reference)",
                      "\t$(call attempt,reference,$(RUN)/mesh.vtkhdf $(RUN)/labels.vtkhdf) $(BACKWARD) $(RUN)/mesh.vtkhdf $(RUN)/labels.vtkhdf "
                      "$(@D)/reference.vtkhdf $(reference_options) $(common)",
                      "# fine: from own/soft, at mesh",
-                     "$V/%: private its_hexmesh = --tumour $$(tabulate place run/mesh.json tumour):0.1",
+                     "$V/%: private override HEXMESH_OPTIONS = --tumour $$(tabulate place run/mesh.json tumour):0.1",
                      "$V/mesh.json: $(RUN)/labels.vtkhdf $(HEXMESH) $(MADE_TUMOUR) $(RUN)/mesh.vtkhdf $(RUN)/studies/own/soft/supine.json "
                      "$$(call changed_in,$$(@D),mesh)",
                      "$(RUN)/studies/own.tsv: $(RUN)/studies/own/soft/supine.json $(RUN)/studies/own/fine/reference.json "
                      "$(RUN)/studies/own/fine/supine.json $(BIN)/tabulate"):
             self.assertIn(line + "\n", text)
-        self.assertNotIn("its_hexmesh := --elements 16", text, "what the case has is not said again")
+        self.assertNotIn("HEXMESH_OPTIONS := --elements 16", text, "what the case has is not said again")
         self.assertIn("$(error own/fine: this variant needs a tumour", expanded(
             "variant\tstarts_at\thexmesh\nfine\tmesh\t--tumour {tumour}\n", False))
 
@@ -271,8 +272,8 @@ class Variants(unittest.TestCase):
         text = expanded("variant\tfrom\tstarts_at\thexmesh\tmechanics\n"
                         "fine\t-\tmesh\t+--elements 20\t+--element q2p1 --scale fat=50\n"
                         "soft\tfine\treference\t-\t+--scale skin=10 --scale fat=25\n")
-        for line in ("its_hexmesh := --elements 20", "its_mechanics := --materials seed --element q2p1 --scale fat=50",
-                     "its_mechanics := --materials seed --element q2p1 --scale skin=10 --scale fat=25"):
+        for line in ("HEXMESH_OPTIONS := --elements 20", "MECHANICS := --materials seed --element q2p1 --scale fat=50",
+                     "MECHANICS := --materials seed --element q2p1 --scale skin=10 --scale fat=25"):
             self.assertIn(line + "\n", text)
 
     def test_come_from_rows_of_other_studies(self):
@@ -281,7 +282,7 @@ class Variants(unittest.TestCase):
         made.add("again", "variant\tfrom\tstarts_at\tmechanics\ny\tscaled/x\tsupine\t+--b\nz\t-\tsupine\t+--c\n", "again.tsv", "scaled/x")
         text = rules_of(made)
         for row, options in (("y", "--a --b"), ("z", "--a --c")):
-            self.assertIn(f"V := $(RUN)/studies/again/{row}\n$V/%: private its_mechanics := --materials seed --element q1p0 {options}\n"
+            self.assertIn(f"V := $(RUN)/studies/again/{row}\n$V/%: private override MECHANICS := --materials seed --element q1p0 {options}\n"
                           "$V/supine.json: $(RUN)/studies/scaled/x/reference.json $(FORWARD)", text)
 
     def test_a_material_set_is_known_by_its_content(self):
@@ -291,7 +292,7 @@ class Variants(unittest.TestCase):
             table = f"variant\tstarts_at\tmaterials\nx\treference\t{own}\n"
             first = expanded(table)
             own.write_text("b")
-            self.assertIn("private its_content := ", first)
+            self.assertIn("private override content_MATERIALS := ", first)
             self.assertNotEqual(expanded(table), first)
             made = Studies(StudyBase(folder, list(chain_rules(CHAIN)), "supine", {"mechanics": "", "materials": "seed", "content": "1"}))
             made.add("own", table, "own.tsv")
@@ -334,7 +335,7 @@ class Variants(unittest.TestCase):
             except BreastError as error:
                 self.assertTrue(str(error).startswith("own.tsv"), error)
                 continue
-            for value in re.findall("private its_.* :?= (.*)", text):
+            for value in re.findall("private override .* :?= (.*)", text):
                 self.assertFalse(code_in(value) or has_control(value), value)
             self.assertFalse(has_control(re.sub("[\n\t]", "", text)))
 

@@ -22,7 +22,7 @@ try:
     from PIL import Image
     from breast.figures.colours import COLUMN
     from breast.figures.of_run import PICTURES
-    from breast.figures.states import moved_columns
+    from breast.figures.matching import moved_columns
 except ImportError as error:
     raise unittest.SkipTest(f"figures need python3-matplotlib and python3-vtk9 ({error})") from None
 

@@ -4,7 +4,7 @@ import os
 import unittest
 
 from breast.cases.scan_identity import remember_scan
-from breast.cases.settings import CaseRequest, case_file_for_make, check_case, check_given
+from breast.cases.settings import case_file_for_make, check_case, check_given
 from in_folder import CODE, InFolder, reason
 
 SETTINGS = """# what they are
@@ -44,7 +44,7 @@ class Settings(InFolder):
             (self.pipelines / name).mkdir(parents=True)
         (self.pipelines / "settings.tsv").write_text(SETTINGS.replace(" ", "\t").replace("|", " "))
         (self.pipelines / "goals.tsv").write_text("goal\tneeds\ntables\tpaper tumour\ntruth\ttruth\nbudget\tpaper truth held source\n"
-                                                  "cohort\tany\ncohort-script\tslurm any\n")
+                                                  "cohort\tany\ncohort-script\tslurm any\nerrors-tables\tdemo source\n")
         for name in ("invivo", "seed2008"):
             (self.pipelines / f"materials/{name}.tsv").write_text("tissue\tc\nfat\t1\n")
         for name in ("a.tsv", "a.nrrd"):
@@ -60,7 +60,7 @@ class Settings(InFolder):
                  "body_slides": "yes", "goals": "chain", "given": " ".join(values)}
         if "MR" in values:
             usual["phantom"] = ""
-        return reason(check_case, CaseRequest(self.pipelines, maker, usual | values))
+        return reason(check_case, self.pipelines, maker, usual | values)
 
     def test_unknown_names_are_refused_with_a_suggestion(self):
         self.assertEqual(self.refused_text(SIDES="left"),
@@ -157,6 +157,9 @@ class Settings(InFolder):
         self.assertIn("with PAPER=1", refused("truth", PAPER="1"))
         self.assertIn("give CLUSTER=slurm", refused("cohort-script"))
         self.assertEqual(refused("cohort-script", CLUSTER="slurm"), "")
+        for other in ({}, {"ELEMENTS": "16"}, {"ELEMENTS": "10", "PRESET": "paper"}, {"ELEMENTS": "10", "MR": "x.nrrd"}):
+            self.assertIn("errors-tables: is about the demonstration", refused("errors-tables", **other))
+        self.assertEqual(refused("errors-tables", ELEMENTS="10"), "")
         self.assertIn("needs the source tree", refused("budget", installed="yes"))
 
 

@@ -9,7 +9,7 @@ import unittest
 import small_run
 
 ALLOWED = small_run.source / "tests" / "spelling.txt"
-PAGES = ("*.md", "docs/**/*.md", "pipelines/help.txt", "pipelines/advice.tsv", "python/breast/page/words.tsv",
+PAGES = ("*.md", "docs/**/*.md", "pipelines/goals.tsv", "pipelines/settings.tsv", "pipelines/advice.tsv", "python/breast/page/words.tsv",
          "python/breast/page/templates/*.jinja", "python/breast/study/templates/*.jinja")
 # docs/tools holds the help of every program, word by word (tests/tools/docs-current.sh).
 _NOT_WORDS = (

@@ -16,7 +16,7 @@ class Tabulate(InFolder):
         self.write("damaged.json", '{"status": "conv')
         self.write("ragged.tsv", "a\tb\n1\n")
         for line, says in (
-                ("sumary x", "did you mean 'summary'?"), ("cost x", "needs 3"), ("truth a b", "takes 1"),
+                ("sumary x", "did you mean summary?"), ("cost x", "needs 3"), ("truth a b", "takes 1"),
                 ("truth none.tsv", "none.tsv"), ("truth ragged.tsv", "line 2"), ("tables . m.tsv tabel3", "did you mean 'table3'?"),
                 ("key damaged.json status", "damaged.json: not a JSON report"),
                 ("place absent.json nipple", "has no landmark 'nipple'"), ("least ragged.tsv surgery much a", "'much'"),

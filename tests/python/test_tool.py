@@ -115,7 +115,7 @@ class Programs(unittest.TestCase):
         self.assertEqual(Path("in.tsv").read_text(), "a\tb\n")
 
     def test_pages(self):
-        tool = example().declaration
+        tool = example()
         self.assertIn("  -f, --factor X\n      factor (1 to 95; default: 2)\n", help_text(tool))
         self.assertIn("  --gravity X,Y,Z\n      direction (default: 0,0,0.5)\n", help_text(tool))
         page = parse_help(help_text(tool, everything=True))
@@ -129,7 +129,7 @@ class Programs(unittest.TestCase):
         tool = example()
         tool.describe("More about nothing.")
         tool.cite("Nobody 2026")
-        small = help_text(tool.declaration)
+        small = help_text(tool)
         self.assertIn("\nOptions:\n  -f, --factor X\n", small)
         self.assertNotIn("More about nothing.", small)
         self.assertTrue(small.endswith("\n\nexample --help-all also explains the common options and the exit codes\n"), small)
@@ -137,13 +137,13 @@ class Programs(unittest.TestCase):
         tool.topic("input", ("--with", "--all"))
         tool.topic("solver", ("--element", "--gravity"))
         tool.basic(("--factor", "--element", "--output"))
-        small, whole = help_text(tool.declaration), help_text(tool.declaration, everything=True)
+        small, whole = help_text(tool), help_text(tool, everything=True)
         self.assertEqual([line for line in small.split("\nCommon options")[0].splitlines() if line.startswith("  -")],
                          ["  -f, --factor X", "  --element q1p0|q2p1", "  -o, --output OUT.tsv"])
         self.assertTrue(small.endswith("\n\nexample --help-all shows 4 further options by topic: input, solver\n"), small)
         page = parse_help(whole)
         man, cells = manual(page, "1").replace("\\-", "-"), markdown(page).replace("\\|", "|")
-        for option in tool.declaration.options + tool.declaration.common:
+        for option in tool.options + tool.common:
             usage = option.usage()
             for page, line in ((whole, f"\n  {usage}\n"), (man, f"\n.B {usage}\n"), (cells, f"| `{usage}` |")):
                 self.assertEqual(page.count(line), 1, line)

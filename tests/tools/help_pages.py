@@ -11,7 +11,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "python"))
 from breast.command.commands import SUMMARY  # noqa: E402
-from breast.command.declaration import Argument, Declaration, help_text  # noqa: E402
+from breast.command.declaration import Declaration, help_text  # noqa: E402
 from breast.command.request import pipeline_command  # noqa: E402
 
 
@@ -100,12 +100,13 @@ def breast_help() -> str:
         "`breast run SCAN [SETTING=value]...` runs the whole chain on a scan, `breast demo` on a simulated breast, "
         "`breast cohort DIR` on every case file of a folder. They work from any folder; results are written to ./runs or to the folder "
         "given by --runs."]
-    d.positionals += [Argument("text", (), "COMMAND", "run, demo, page, cohort, list, help, or the name of a tool"),
-                      Argument("text", (), "ARGUMENT", "arguments of the command", repeatable=True)]
+    d.word("COMMAND", "run, demo, page, cohort, list, help, or the name of a tool")
+    d.words("ARGUMENT", "arguments of the command")
     for option in pipeline_command("run").options + pipeline_command("cohort").options:
         if d.option(option.label) is None:
             d.options.append(option)
-    d.options += [Argument("flag", ("--help",), "", "the commands and tools"), Argument("flag", ("--version",), "", "name and version")]
+    d.flag("--help", "the commands and tools")
+    d.flag("--version", "name and version")
     d.examples += [("breast demo", "the whole chain on a simulated breast; results in ./runs/average"),
                    ("breast run scan.nrrd", "the whole chain on a scan; results in ./runs/scan-left and ./runs/scan-right"),
                    ("breast help compress", "the help of a tool"),

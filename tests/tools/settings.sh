@@ -38,6 +38,14 @@ refused "a scan with a line break in its name" "MR: a line break may not stand i
 plan fuzz MINUTES=1 && plan release-check FUZZ_MINUTES=1 FUZZ_INPUTS=1 FAULT_ALLOCATIONS=1 || { cat "$work/err"; fail "settings of fuzz are known"; }
 pass "unknown settings and values are refused by name, with a suggestion"
 
+# The help lists every setting, and every target that the table describes.
+make -f Makefile.pipeline help > "$work/out"
+for name in $(awk -F '\t' '/^#/ || $1 ~ /^(goal|setting)$/ || $NF == "-" { next } FILENAME ~ /settings/ { print $1 "=" } FILENAME !~ /settings/ { print $1 }' \
+  pipelines/settings.tsv pipelines/goals.tsv); do
+  grep -q "^  $name" "$work/out" || fail "help lists $name"
+done
+pass "the help lists targets and settings"
+
 # Defaults, which depend on the case, are those of settings, once each.
 defaults=$(grep -oh '^[A-Z][A-Z0-9_]* ?=' pipelines/settings.mk pipelines/build.mk tests/*.mk tests/*/*.mk | cut -d' ' -f1 | sort)
 [ "$(wc -w <<< "$defaults")" -gt 40 ] && [ -z "$(uniq -d <<< "$defaults")" ] && [ -z "$(comm -23 <(echo "$defaults") <(cut -f 1 pipelines/settings.tsv | sort))" ] ||

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import hashlib
 import os
+from collections import defaultdict
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from ..command.nearest import suggestion
@@ -16,7 +16,7 @@ from ..errors import BreastError
 from ..output import write_text
 from .case_file import read_case_file
 from .claim import claim_run
-from .goals import CaseKind, Goals
+from .goals import Goals
 from .scan_identity import mixed_up
 from .settings_table import Setting, check_characters, check_choice, read_settings
 
@@ -67,68 +67,58 @@ def case_file_for_make(pipelines: Path, case_file: str, folder: Path) -> Path:
     return made
 
 
-@dataclass
-class CaseRequest:
-    """A case as make has it from the settings and their defaults.
-
-    pipelines: folder of settings.tsv and goals.tsv; maker: the process that will make the case, 0 if it only plans; values: of all
-    settings, and goals, the targets of make; given, the names on its command line; installed (without the source tree), phantom,
-    body_slides and no_tumour, not empty if they hold.
-    """
-
-    pipelines: Path
-    maker: int
-    values: Mapping[str, str]
-
-    def value(self, name: str) -> str:
-        return self.values.get(name, "")
-
-    def is_result(self, file: str) -> bool:
-        """Whether a file is one of the runs: a rule may make it before it is read."""
-        return file.startswith(self.value("RUNS") + "/")
-
-
-def check_case(request: CaseRequest) -> None:
+def check_case(pipelines: Path, maker: int, values: Mapping[str, str]) -> None:
     """Raises BreastError, in one sentence that names the setting or the target, for a value that no program would accept, a file or a
     program that is not there, a target that this case cannot have, a folder that belongs to another scan, and a case that another process
-    makes with other settings; otherwise claims the folder for the maker."""
-    settings, goals = read_settings(request.pipelines), Goals(request.pipelines, request.value("goals").split())
+    makes with other settings; otherwise claims the folder for the maker.
+
+    Args:
+        pipelines: folder of settings.tsv and goals.tsv.
+        maker: the process that will make the case, 0 if it only plans.
+        values: the case as make has it from the settings and their defaults, and goals, the targets of make; given, the names on its
+            command line; installed (without the source tree), phantom, body_slides and no_tumour, not empty if they hold.
+    """
+    case = defaultdict(str, values)
+    settings, goals = read_settings(pipelines), Goals(pipelines, case["goals"].split())
     for setting in settings:
-        if not request.is_result(request.value(setting.name)):
-            check_choice(setting, request.value(setting.name), request.pipelines)
-    case, phantom, run = request.value("CASE"), bool(request.value("phantom")), Path(request.value("RUN"))
-    _refuse_empty("CASE", case)
-    if case.startswith(".") or "/" in case:
-        raise BreastError(f"CASE: '{case}' is not a plain name of a folder below {request.value('RUNS')}")
-    goals.check(CaseKind(bool(request.value("installed")), phantom, not request.value("no_tumour"), bool(request.value("body_slides")),
-                         bool(request.value("PAPER")), request.value("CLUSTER") == "slurm"), request.value("PRESET"))
+        if not _is_result(case, case[setting.name]):
+            check_choice(setting, case[setting.name], pipelines)
+    _refuse_empty("CASE", case["CASE"])
+    if case["CASE"].startswith(".") or "/" in case["CASE"]:
+        raise BreastError(f"CASE: '{case['CASE']}' is not a plain name of a folder below {case['RUNS']}")
+    goals.check(case)
+    run = Path(case["RUN"])
     if goals.about_case():
-        reason = mixed_up(run, request.value("SIDE"), f"phantom:{request.value('PRESET')}" if phantom else request.value("MR"))
+        reason = mixed_up(run, case["SIDE"], f"phantom:{case['PRESET']}" if case["phantom"] else case["MR"])
         if reason:
             raise BreastError(reason)
-    _check_files(request, settings)
-    if goals.about_case() and request.maker:
-        claim_run(run, request.maker, {one.name: request.value(one.name) for one in settings if one.of_case or one.kind == "program"},
+    _check_files(case, settings)
+    if goals.about_case() and maker:
+        claim_run(run, maker, {one.name: case[one.name] for one in settings if one.of_case or one.kind == "program"},
                   [one.name for one in settings if one.kind == "text"])
 
 
-def _check_files(request: CaseRequest, settings: Sequence[Setting]) -> None:
+def _is_result(case: Mapping[str, str], file: str) -> bool:
+    """Whether a file is one of the runs: a rule may make it before it is read."""
+    return file.startswith(case["RUNS"] + "/")
+
+
+def _check_files(case: Mapping[str, str], settings: Sequence[Setting]) -> None:
     """Refuses a program or a file that a setting names and that is not there, unless a rule makes it."""
-    given = request.value("given").split()
+    given = case["given"].split()
     for setting in settings:
-        name, value = setting.name, request.value(setting.name)
-        if setting.kind == "program" and value and (name in given or request.value("installed")):
+        name, value = setting.name, case[setting.name]
+        if setting.kind == "program" and value and (name in given or case["installed"]):
             program = value.split()[0]
             if not (os.path.isfile(program) and os.access(program, os.X_OK)):
                 raise BreastError(f"{name}: '{program}' is no program that can be run; give its path, or leave {name} out for libbreast's "
                                   "own")
         # The scan may be a phantom that a rule makes, a material set a name; LANDMARKS and MAMMOGRAMS name two files.
         for file in value.split(",") if setting.kind == "path" and setting.of_case and name not in ("MR", "MATERIALS") and value else ():
-            if file != "phantom" and not request.is_result(file) and not os.path.exists(file):
+            if file != "phantom" and not _is_result(case, file) and not os.path.exists(file):
                 raise BreastError(f"{name}: '{file}' does not exist; check its name and folder")
-    mammograms = request.value("MAMMOGRAMS")
-    if mammograms and mammograms.count(",") != 1:
-        raise BreastError(f"MAMMOGRAMS: '{mammograms}' is not CC.dcm,MLO.dcm, the patient's two mammograms of this breast")
-    if request.value("SUPINE") == "phantom" and not request.value("phantom"):
-        raise BreastError(f"SUPINE: phantom is the supine scan of a phantom, but MR={request.value('MR')} is the scan of a patient; name "
-                          "the supine scan of this patient")
+    if case["MAMMOGRAMS"] and case["MAMMOGRAMS"].count(",") != 1:
+        raise BreastError(f"MAMMOGRAMS: '{case['MAMMOGRAMS']}' is not CC.dcm,MLO.dcm, the patient's two mammograms of this breast")
+    if case["SUPINE"] == "phantom" and not case["phantom"]:
+        raise BreastError(f"SUPINE: phantom is the supine scan of a phantom, but MR={case['MR']} is the scan of a patient; name the supine "
+                          "scan of this patient")

@@ -16,13 +16,17 @@ _RADIUS_MM = 50.0  # the largest of a tumour
 
 
 class Setting(NamedTuple):
-    """A row of settings.tsv; kind: path, name, text, words or program; of_case: whether a case file may contain it."""
+    """A row of settings.tsv; kind: path, name, text, words or program; of_case: whether a case file may contain it; value, default, help:
+    what it is given, what it is otherwise if settings.mk does not say it plainly, and what it does, in words."""
 
     name: str
     kind: str
     of_case: bool = False
     choices: tuple[str, ...] = ()
     may_hold: str = ""
+    value: str = ""
+    default: str = ""
+    help: str = ""
 
     @property
     def is_words(self) -> bool:
@@ -31,7 +35,8 @@ class Setting(NamedTuple):
 
 def read_settings(pipelines: Path) -> list[Setting]:
     """The settings of the pipeline in the folder `pipelines`, in the order of the table."""
-    return [Setting(row["setting"], row["kind"], row["of"] == "case", tuple(row["choices"].split()), row["may_hold"])
+    return [Setting(row["setting"], row["kind"], row["of"] == "case", tuple(row["choices"].split()), row["may_hold"],
+                    *(row.get(column, "") for column in ("value", "default", "help")))
             for row in read_table(pipelines / "settings.tsv").records()]
 
 

@@ -54,12 +54,13 @@ class StudyRules:
     """The rules of all rows of studies.
 
     Args:
-        run: folder of the case. tumour: whether the case has one to follow. place: shell command that prints the place of the tumour in a
-            mesh, given its report.
+        variables: of make, that have the options of each column. run: folder of the case. tumour: whether the case has one to follow.
+            place: shell command that prints the place of the tumour in a mesh, given its report.
     """
 
-    def __init__(self, studies: Studies, rules: dict[str, ChainRule], run: str, tumour: bool, place: str) -> None:
+    def __init__(self, studies: Studies, rules: dict[str, ChainRule], variables: dict[str, str], run: str, tumour: bool, place: str) -> None:
         self._studies, self._rules, self._run, self._tumour, self._place = studies, rules, run, tumour, place
+        self._variables = variables
         self._maker = {rule.file: rule.stage for rule in rules.values()}
 
     def text(self) -> str:
@@ -99,7 +100,7 @@ class StudyRules:
         for column, value in one.options.items():
             if value != self._studies.case[column]:
                 equals = "=" if "{tumour}" in value else ":="  # its place is asked for when the stage runs
-                yield f"$V/%: private its_{column} {equals} {self._placed(one, value)}\n"
+                yield f"$V/%: private override {self._variables[column]} {equals} {self._placed(one, value)}\n"
         for stage in one.stages:
             if stage not in one.given:
                 yield self._rule(one, self._rules[stage])

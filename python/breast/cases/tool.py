@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
-from ..command.nearest import suggestion
+from ..command.kinds import Kinds
 from ..command.tool import Run, Tool
 from ..errors import BreastError, Failed
 from ..output import write_text
@@ -18,13 +17,7 @@ if TYPE_CHECKING:
     from .cohort import CohortEntry
 
 
-class Kind(NamedTuple):
-    """An action: what it is called with, and what it prints."""
-
-    arguments: str
-    help: str
-    least: int  # number of arguments
-    act: Callable[[list[str], Run], str | None]
+ACTIONS = Kinds("cases", "an action of cases")
 
 
 def _named_value(word: str, start: int = 0) -> tuple[str, str]:
@@ -37,19 +30,25 @@ def _named_value(word: str, start: int = 0) -> tuple[str, str]:
 
 # The modules of an action are imported when it is asked for: most actions are called many times by make.
 
+@ACTIONS.kind("given", "PIPELINES [NAME=VALUE]...",
+              "refuses a name that is no setting, and a value, here or in the environment, that make or a shell would read as code")
 def _given(words: list[str], run: Run) -> None:
     from .settings import check_given
     check_given(Path(words[0]), dict(map(_named_value, words[1:])), os.environ)
 
 
+@ACTIONS.kind("case-file", "PIPELINES FILE FOLDER", "writes the settings of a case file as a makefile into FOLDER, and prints its name")
 def _case_file(words: list[str], run: Run) -> str:
     from .settings import case_file_for_make
     return f"{case_file_for_make(Path(words[0]), words[1], Path(words[2]))}\n"
 
 
+@ACTIONS.kind("check", "PIPELINES MAKE_PID|0 [NAME=VALUE]...",
+              "refuses a value that no program would accept, a target (goals) that the case cannot have, a folder RUN of another scan, "
+              "and a case that another process makes with other settings; 0: a plan, which makes nothing")
 def _check_case(words: list[str], run: Run) -> None:
-    from .settings import CaseRequest, check_case
-    check_case(CaseRequest(Path(words[0]), int(parse_number(words[1], "check: MAKE_PID")), dict(map(_named_value, words[2:]))))
+    from .settings import check_case
+    check_case(Path(words[0]), int(parse_number(words[1], "check: MAKE_PID")), dict(map(_named_value, words[2:])))
 
 
 def _entries(words: list[str]) -> list[CohortEntry]:
@@ -58,47 +57,62 @@ def _entries(words: list[str]) -> list[CohortEntry]:
     return cohort_entries(words[0], [one.name for one in read_settings(Path(words[1])) if one.of_case])
 
 
+@ACTIONS.kind("cohort", "COHORT PIPELINES", "prints the names of the cases of a folder")
 def _cohort(words: list[str], run: Run) -> str:
     return "".join(one.name + "\n" for one in _entries(words))
 
 
+@ACTIONS.kind("list", "COHORT PIPELINES", "prints one line per case file of a folder: CASE, FILE and KIND (scan or phantom)")
 def _list(words: list[str], run: Run) -> str:
     return "".join("\t".join(one) + "\n" for one in _entries(words))
 
 
+@ACTIONS.kind("studies", "OUT.mk MAKEFILE RUN ENDS_AT PLACE [@COLUMN:VARIABLE=OPTIONS]... [{NAME=VALUE]... [STUDY=FILE.tsv[@ROW]]...",
+              "writes the rules by which make solves the rows of studies: those of the chain in MAKEFILE, with the options of each row; "
+              "PLACE is the command that prints the place of a tumour")
 def _studies(words: list[str], run: Run) -> None:
     from .study_rules import StudyRules, chain_rules
     from .variants import Studies, StudyBase
     made, makefile, folder, ends_at, place, *rest = words
     rules = chain_rules(read_text(makefile))
     base = StudyBase(folder, list(rules), ends_at)
+    variables: dict[str, str] = {}
     for word in rest:
-        if word.startswith(("@", "{")):
+        if word.startswith("@"):
             name, value = _named_value(word, 1)
-            (base.attributes if word.startswith("@") else base.placeholders)[name] = value
+            column, _, variable = name.partition(":")
+            base.attributes[column], variables[column] = value, variable
+        elif word.startswith("{"):
+            name, value = _named_value(word, 1)
+            base.placeholders[name] = value
     studies = Studies(base)
     for word in rest:
         if not word.startswith(("@", "{")):
             name, value = _named_value(word)
             file, _, origin = value.partition("@")
             studies.add(name, read_text(file), file, origin)
-    text = StudyRules(studies, rules, folder, "curve" in ends_at.split(), place).text()
+    text = StudyRules(studies, rules, variables, folder, "curve" in ends_at.split(), place).text()
     if not os.path.exists(made) or read_text(made) != text:
         os.makedirs(os.path.dirname(made), exist_ok=True)
         write_text(made, text)
 
 
+@ACTIONS.kind("record", "RUN SIDE SCAN", "records scan and side in RUN/.scan")
 def _record(words: list[str], run: Run) -> None:
     from .scan_identity import remember_scan
     remember_scan(Path(words[0]), words[1], words[2])
 
 
+@ACTIONS.kind("stage", "RECORD 'SETTINGS' -- COMMAND...",
+              "runs a stage, says in one line what it found, and records its settings; all else that it says is in log.txt beside the "
+              "record")
 def _stage(words: list[str], run: Run) -> None:
     from .stage import run_stage
     prints, keep, spared = (Path(file) if file else None for file in (run.args.prints, run.args.keep, run.args.spared))
     run_stage(Path(words[0]), words[1], words[2:], prints, keep, list(map(Path, run.args.of.split())), spared)
 
 
+@ACTIONS.kind("gripped", "RUN", "fails if the plates of a view do not grip the breast, and says why")
 def _gripped(words: list[str], run: Run) -> None:
     from .compression import views_without_compression
     from .stage import in_red
@@ -107,16 +121,22 @@ def _gripped(words: list[str], run: Run) -> None:
         raise Failed(f"{words[0]}: its shape is kept, and no mammogram and no curve are made of it")
 
 
+@ACTIONS.kind("attempt", "STAGE.json 'INPUT...' -- COMMAND...",
+              "runs a stage of a variant; if it has no solution, the report gives the reason")
 def _attempt(words: list[str], run: Run) -> None:
     from .attempt import attempt
     attempt(Path(words[0]), list(map(Path, words[1].split())), words[2:])
 
 
+@ACTIONS.kind("ladder", "RUN MM 'POINT...' -- MAKE...",
+              "solves points of the study `cost` until the estimated error is below MM, and writes RUN/accuracy.mk")
 def _ladder(words: list[str], run: Run) -> None:
     from .ladder import climb
     sys.stderr.write(climb(Path(words[0]), parse_number(words[1], "ACCURACY"), words[2].split(), words[3:]))
 
 
+@ACTIONS.kind("run", "RUNS CASE -- MAKE... GOAL",
+              "runs a case of the cohort listed in RUNS/.cases and writes its outcome to RUNS/CASE.status")
 def _run(words: list[str], run: Run) -> None:
     from .case_run import run_case
     from .cohort import listed_cases
@@ -128,72 +148,34 @@ def _run(words: list[str], run: Run) -> None:
         raise Failed(f"{name}: stopped by a signal")
 
 
+@ACTIONS.kind("any-done", "TABLE.tsv", "fails if no case in the table of a cohort was completed")
 def _any_done(words: list[str], run: Run) -> None:
     if not any(row["status"] == "done" for row in read_table(words[0])):
         raise Failed(f"every case failed: see {words[0]}")
 
 
-def _of_cluster(name: str) -> Callable[[list[str], Run], str]:
-    def act(words: list[str], run: Run) -> str:
-        from . import slurm
-        asked = run.args
-        return getattr(slurm, name)(slurm.SlurmRequest(
-            Path(words[0]), Path(words[1]), os.path.realpath(sys.argv[0]), words[2:], Path(asked.cost), asked.partition,
-            asked.account, asked.time, asked.memory, asked.options, asked.cores, asked.resume, asked.elements, asked.element))
-    return act
+@ACTIONS.kind("script", "RUNS COHORT -- [MAKE]...", "prints the script of the job array that `submit` would submit")
+@ACTIONS.kind("submit", "RUNS COHORT -- [MAKE]...",
+              "submits to Slurm the cases in RUNS/.cases, each as a run of the command MAKE, and a job that makes their table")
+def _slurm(words: list[str], run: Run) -> str:
+    from . import slurm
+    asked = run.args
+    request = slurm.SlurmRequest(
+        Path(words[0]), Path(words[1]), os.path.realpath(sys.argv[0]), words[2:], Path(asked.cost), asked.partition, asked.account,
+        asked.time, asked.memory, asked.options, asked.cores, asked.resume, asked.elements, asked.element)
+    return slurm.submit_to_slurm(request) if asked.kind == "submit" else slurm.slurm_plan(request)
 
 
+@ACTIONS.kind("task", "FOLDER OFFSET", "runs the case of one task; called by the job array")
 def _task(words: list[str], run: Run) -> str:
     from .slurm import run_slurm_task
     return run_slurm_task(Path(words[0]), int(parse_number(words[1], "task: OFFSET")))
 
 
+@ACTIONS.kind("table", "FOLDER COHORT", "makes the table; called by the last job")
 def _table(words: list[str], run: Run) -> None:
     from .slurm import run_slurm_table
     run_slurm_table(Path(words[0]), words[1])
-
-
-# In the order of their use: reading, refusing, running.
-KINDS = {
-    "given": Kind("PIPELINES NAME=VALUE...", "refuses a name that is no setting, and a value, here or in the environment, that make or a "
-                  "shell would read as code", 1, _given),
-    "case-file": Kind("PIPELINES FILE FOLDER", "writes the settings of a case file as a makefile into FOLDER, and prints its name", 3,
-                      _case_file),
-    "check": Kind("PIPELINES MAKE_PID|0 NAME=VALUE...", "refuses a value that no program would accept, a target (goals) that the case "
-                  "cannot have, a folder RUN of another scan, and a case that another process makes with other settings; 0: a plan, which "
-                  "makes nothing", 2, _check_case),
-    "cohort": Kind("COHORT PIPELINES", "prints the names of the cases of a folder", 2, _cohort),
-    "list": Kind("COHORT PIPELINES", "prints one line per case file of a folder: CASE, FILE and KIND (scan or phantom)", 2, _list),
-    "studies": Kind("OUT.mk MAKEFILE RUN ENDS_AT PLACE @COLUMN=OPTIONS... {NAME=VALUE... STUDY=FILE.tsv[@ROW]...",
-                    "writes the rules by which make solves the rows of studies: those of the chain in MAKEFILE, with the options of each "
-                    "row; PLACE is the command that prints the place of a tumour", 5, _studies),
-    "record": Kind("RUN SIDE SCAN", "records scan and side in RUN/.scan", 3, _record),
-    "stage": Kind("RECORD 'SETTINGS' -- COMMAND...", "runs a stage, says in one line what it found, and records its settings; all else "
-                  "that it says is in log.txt beside the record", 3, _stage),
-    "attempt": Kind("STAGE.json 'INPUT...' -- COMMAND...",
-                    "runs a stage of a variant; if it has no solution, the report gives the reason", 3, _attempt),
-    "gripped": Kind("RUN", "fails if the plates of a view do not grip the breast, and says why", 1, _gripped),
-    "ladder": Kind("RUN MM 'POINT...' -- MAKE...", "solves points of the study `cost` until the estimated error is below "
-                   "MM, and writes RUN/accuracy.mk", 4, _ladder),
-    "run": Kind("RUNS CASE -- MAKE... GOAL", "runs a case of the cohort listed in RUNS/.cases and writes its outcome to RUNS/CASE.status",
-                4, _run),
-    "any-done": Kind("TABLE.tsv", "fails if no case in the table of a cohort was completed", 1, _any_done),
-    "script": Kind("RUNS COHORT -- MAKE...", "prints the script of the job array that `submit` would submit", 2,
-                   _of_cluster("slurm_plan")),
-    "submit": Kind("RUNS COHORT -- MAKE...", "submits to Slurm the cases in RUNS/.cases, each as a run of the command MAKE, and a job "
-                   "that makes their table", 2, _of_cluster("submit_to_slurm")),
-    "task": Kind("FOLDER OFFSET", "runs the case of one task; called by the job array", 2, _task),
-    "table": Kind("FOLDER COHORT", "makes the table; called by the last job", 2, _table),
-}
-
-
-def _check(tool: Tool) -> None:
-    name, words = tool.args.kind, tool.args.argument
-    if name not in KINDS:
-        raise BreastError(f"'{name}' is not an action of cases{suggestion(name, KINDS)}")
-    kind = KINDS[name]
-    if len(words) < kind.least:
-        raise BreastError(f"{name}: has {len(words)} arguments and needs {kind.least}; usage: cases {name} {kind.arguments}")
 
 
 def _declared() -> Tool:
@@ -201,10 +183,9 @@ def _declared() -> Tool:
     tool.describe("Performs the work of Makefile.pipeline that is not a matter of make: it reads case files and studies as data, refuses "
                   "a scan in a folder that belongs to another one, runs the cases of a cohort, and submits them to Slurm. It is called "
                   "by the makefile and is not meant to be called by hand.")
-    for name, kind in KINDS.items():
-        tool.describe(f"{name} {kind.arguments}: {kind.help}.")
-    tool.word("KIND", "action: " + ", ".join(KINDS))
-    tool.words("ARGUMENT", "arguments of the action: files, folders and names")
+    for action in ACTIONS.known.values():
+        tool.describe(f"{action.name} {action.arguments}: {action.help}.")
+    ACTIONS.declare(tool)
     tool.text("--prints", "FILE", "of `stage`: the file that gets what the program prints; its messages alone are then in the log")
     tool.text("--keep", "FILE", "of `stage`: the shape of compress, which is kept even if the plates do not grip the breast")
     tool.text("--spared", "FILE", "of `stage`: what the program writes, which is left out if the program fails")
@@ -224,7 +205,6 @@ def _declared() -> Tool:
     tool.topic("Slurm", ("--partition", "--account", "--time", "--memory", "--cores", "--options", "--resume", "--elements", "--element",
                          "--cost"))
     tool.basic(("--partition", "--account", "--time", "--memory", "--cores", "--options", "--resume"))
-    tool.check(lambda: _check(tool))
     tool.example("cases list patients pipelines", "list the cases of a cohort")
     tool.example("cases record runs/scan-left left scan.nrrd", "record that this folder was made from this scan")
     return tool
@@ -233,5 +213,5 @@ def _declared() -> Tool:
 def main() -> int:
     def body(run: Run) -> None:
         run.report["kind"] = run.args.kind
-        run.print(KINDS[run.args.kind].act(run.args.argument, run) or "")
+        run.print(ACTIONS.called(run.args.kind).make(run.args.argument, run) or "")
     return _declared().main(body)

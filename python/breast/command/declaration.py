@@ -6,9 +6,12 @@ import math
 import os
 import sys
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from types import SimpleNamespace
 
 from .. import __version__
+from ..errors import Failed
+from ..text_table import parse_number
 
 _EXIT_CODES = (("0", "done"), ("1", "failed (disk, memory, library)"), ("2", "bad usage or bad input; nothing written"),
                ("3", "not converged; nothing written unless asked for"))
@@ -67,19 +70,23 @@ class Argument:
         return f"{self.help} ({remarks})" if remarks else self.help
 
 
-@dataclass
 class Declaration:
-    """A program: examples are pairs of command and explanation."""
+    """A program as its help lists it; the methods declare its arguments in this order, and `args` has their values by name.
 
-    name: str
-    summary: str
-    paragraphs: list[str] = field(default_factory=list)
-    citations: list[str] = field(default_factory=list)
-    examples: list[tuple[str, str]] = field(default_factory=list)
-    positionals: list[Argument] = field(default_factory=list)
-    options: list[Argument] = field(default_factory=list)
-    common: list[Argument] = field(default_factory=list)
-    version: str = __version__
+    common: options that every program has; version: for the help. examples: pairs of command and explanation.
+    """
+
+    version = __version__
+
+    def __init__(self, name: str, summary: str) -> None:
+        self.name, self.summary = name, summary
+        self.paragraphs: list[str] = []
+        self.citations: list[str] = []
+        self.examples: list[tuple[str, str]] = []
+        self.positionals: list[Argument] = []
+        self.options: list[Argument] = []
+        self.common: list[Argument] = []
+        self.args = SimpleNamespace()
 
     def option(self, name: str) -> Argument | None:
         return next((a for a in self.options + self.common if name in a.names), None)
@@ -92,6 +99,120 @@ class Declaration:
         """The headings of the options in the order of their first use, each with its options."""
         topics = dict.fromkeys(a.topic for a in self.options)
         return [("Options: " + topic if topic else "Options", [a for a in self.options if a.topic == topic]) for topic in topics]
+
+    # ---- what the program is ----
+
+    def describe(self, paragraph: str) -> None:
+        self.paragraphs.append(paragraph)
+
+    def cite(self, reference: str) -> None:
+        self.citations.append(reference)
+
+    def example(self, command: str, explanation: str) -> None:
+        self.examples.append((command, explanation))
+
+    def topic(self, name: str, options: Sequence[str]) -> None:
+        """Lists options, which are declared before, under a heading of their own; each has at most one."""
+        for option in options:
+            argument = self._declared(option)
+            if argument.topic:
+                raise Failed(f"{self.name} lists {option} under {argument.topic} and under {name}")
+            argument.topic = name
+
+    def basic(self, options: Sequence[str]) -> None:
+        """Marks the options that --help lists, about ten; --help-all lists all of them."""
+        for option in options:
+            self._declared(option).basic = True
+
+    # ---- positional arguments: args.placeholder in lower case, without its ending ----
+
+    def word(self, placeholder: str, help: str, kind: str = "text") -> Argument:
+        return self._positional(kind, placeholder, help, self._into(self._name(placeholder)))
+
+    def words(self, placeholder: str, help: str, kind: str = "text") -> Argument:
+        name = self._name(placeholder)
+        argument = self._positional(kind, placeholder, help, lambda values: setattr(self.args, name, list(values)))
+        argument.repeatable = True
+        return argument
+
+    def inputs(self, placeholder: str, help: str) -> Argument:
+        return self.words(placeholder, help, "input")
+
+    # ---- options: args.name, without dashes at its beginning and with _ for those inside ----
+
+    def flag(self, names: str, help: str) -> Argument:
+        argument = self._option("flag", names, "", help, False)
+        argument.store = self._set(self._name(argument.label))
+        return argument
+
+    def text(self, names: str, placeholder: str, help: str, default: str = "") -> Argument:
+        return self._option("text", names, placeholder, help, default)
+
+    def choice(self, names: str, choices: Sequence[str], help: str, default: str = "") -> Argument:
+        argument = self._option("choice", names, "NAME", help, default)
+        argument.choices = choices
+        return argument
+
+    def number(self, names: str, unit: str, help: str, default: float, low: float = -math.inf, high: float = math.inf) -> Argument:
+        argument = self._option("number", names, unit, help, default)
+        argument.low, argument.high = low, high
+        argument.store = self._into(self._name(argument.label), lambda text: parse_number(text, argument.label))
+        return argument
+
+    def integer(self, names: str, unit: str, help: str, default: int, low: int, high: int) -> Argument:
+        argument = self._option("integer", names, unit, help, default)
+        argument.low, argument.high = low, high
+        argument.store = self._into(self._name(argument.label), lambda text: int(parse_number(text, argument.label)))
+        return argument
+
+    def input_file(self, names: str, placeholder: str, help: str) -> Argument:
+        return self._option("input", names, placeholder, help, "")
+
+    def output_file(self, names: str, placeholder: str, help: str) -> Argument:
+        argument = self._option("output", names, placeholder, help, "")
+        argument.endings = _endings(placeholder)
+        return argument
+
+    def output_folder(self, names: str, placeholder: str, help: str) -> Argument:
+        return self._option("folder", names, placeholder, help, "")
+
+    @staticmethod
+    def _name(label: str) -> str:
+        return label.split(".")[0].lstrip("-").lower().replace("-", "_")
+
+    def _into(self, name: str, convert: Callable[[str], object] = str) -> Callable[[list[str]], None]:
+        return lambda values: setattr(self.args, name, convert(values[0]))
+
+    def _set(self, name: str) -> Callable[[list[str]], None]:
+        return lambda values: setattr(self.args, name, True)
+
+    def _declared(self, name: str) -> Argument:
+        found = next((a for a in self.options if a.label == name), None)
+        if found is None:
+            raise Failed(f"{self.name} names {name}, which it never declared")
+        return found
+
+    def _positional(self, kind: str, placeholder: str, help: str, store: Callable[[list[str]], None]) -> Argument:
+        argument = Argument(kind, (), placeholder, help, store=store)
+        self.positionals.append(argument)
+        return argument
+
+    def _option(self, kind: str, names: str, placeholder: str, help: str, default: object) -> Argument:
+        argument = Argument(kind, tuple(names.split(",")), placeholder, help)
+        name = self._name(argument.label)
+        setattr(self.args, name, default)
+        if isinstance(default, (int, float)) and not isinstance(default, bool):
+            argument.default_text = number_text(default)
+        elif isinstance(default, str):
+            argument.default_text = default
+        argument.store = self._into(name)
+        self.options.append(argument)
+        return argument
+
+
+def _endings(placeholder: str) -> list[str]:
+    """Those of "OUT.inp|OUT.feb": .inp and .feb."""
+    return ["." + name.partition(".")[2] for name in placeholder.split("|") if "." in name]
 
 
 def number_text(value: float) -> str:

@@ -104,44 +104,24 @@ def setting_help(installation: Installation, name: str) -> str:
     setting = next((s for s in _settings(installation) if s.name == name.upper()), None)
     if setting is None:
         return ""
-    lines, found = settings_help(installation).splitlines(), []
-    for line in lines[lines.index("settings") + 1:]:
-        if line.startswith("   ") and found:
-            found.append(line)
-        elif re.search(rf"\b{setting.name}=", line.split("  ")[1] if line.startswith("  ") else ""):
-            found = [line]
-        elif found:
-            break
-    if not found:
-        found = [f"  {setting.name}=..."]
+    found = [f"  {setting.name}={setting.value}  {setting.help}"]
     kind, *bounds = setting.choices or ("set",)
     if kind in ("number", "integer"):
         what = "a number" if kind == "number" else "a whole number"
         found.append(f"  accepts: {what}" + (f" from {bounds[0]} to {bounds[1]}" if bounds else ""))
     elif kind != "set" and not kind.startswith("rows:") and "place" not in bounds:
         found.append("  accepts: " + " ".join(setting.choices).replace("%", "..."))
-    # A default that follows from the case is described in the help.
+    # One that follows from the case is described in the table of settings.
     defaults = read_text(os.path.join(installation.pipelines, "settings.mk"))
-    default = re.search(rf"^{setting.name} \?= (?:\$\(BIN\)/)?([^$\n\\]+)$", defaults, re.MULTILINE)
-    if default:
-        found.append("  default: " + default[1])
+    plain = re.search(rf"^{setting.name} \?= (?:\$\(BIN\)/)?([^$\n\\]+)$", defaults, re.MULTILINE)
+    if setting.default or plain:
+        found.append("  default: " + (setting.default or plain[1]))
     return "\n".join(found) + "\n"
 
 
 def settings_help(installation: Installation) -> str:
-    """The help of the makefile, in an installation without what needs the source tree, and with the command that is called there."""
-    text = read_text(os.path.join(installation.pipelines, "help.txt"))
-    if not installation.is_package:
-        return text
-    out = ("breast run SCAN [--side left|right] [--target TARGET] [SETTING=VALUE]...\n"
-           "breast demo [--target TARGET] [SETTING=VALUE]...                minutes are for 2 cores\n")
-    source = False
-    for line in text.splitlines()[1:]:
-        source = source or line.startswith("targets that need the source tree")
-        if not source:
-            out += line + "\n"
-        source = source and bool(line)
-    return out
+    """The help of the makefile: all targets and settings, in an installation without what needs the source tree."""
+    return _ask(["make", "-s", "-f", _make_file(installation), "help"])
 
 
 def asked_of_make(installation: Installation, r: PipelineRequest) -> tuple[list[str], str, str]:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from ..errors import BreastError, Failed
 from .assumed import SIDES, TUMOUR_RULE
 from .commands import COMMANDS
-from .declaration import Argument, Declaration
+from .declaration import Declaration
 from .parse import Tokens, assign, tokenize
 
 _SETTING = re.compile(r"[A-Z_0-9]+=.*", re.DOTALL)
@@ -40,28 +40,20 @@ class PipelineRequest:
         return self.command == "run" or (self.command == "page" and self.scan != "")
 
 
-def _into(request: PipelineRequest, name: str, convert: Callable[[str], object] = str) -> Callable[[list[str]], None]:
-    return lambda values: setattr(request, name, convert(values[0]) if values else True)
+def _options(d: Declaration, jobs: int, jobs_help: str) -> None:
+    d.text("--runs", "DIR", "folder in which every run has a folder of its own; it is created if it does not exist", "runs")
+    d.integer("-j,--jobs", "N", jobs_help, jobs, 1, 64)
+    d.flag("--dry-run", "print the commands without running them")
 
 
-def _options(d: Declaration, r: PipelineRequest, jobs_help: str) -> None:
-    d.options += [
-        Argument("text", ("--runs",), "DIR", "folder in which every run has a folder of its own; it is created if it does not exist",
-                 r.runs, store=_into(r, "runs")),
-        Argument("integer", ("-j", "--jobs"), "N", jobs_help, str(r.jobs), low=1, high=64,
-                 store=_into(r, "jobs", lambda text: int(float(text)))),
-        Argument("flag", ("--dry-run",), "", "print the commands without running them", store=_into(r, "plan"))]
-
-
-def _case_options(d: Declaration, r: PipelineRequest) -> None:
+def _case_options(d: Declaration, target: str) -> None:
     # Of one case, two stages can run side by side most of the time, such as the compressions in both views.
-    r.jobs = 2
-    _options(d, r, "number of stages that may run at the same time; they share the cores")
-    d.options.append(Argument("text", ("--target",), "NAME", "what to make: chain, figures, summary, page, report or another target of "
-                              "the pipeline (breast help settings); several are separated by blanks", r.target, store=_into(r, "target")))
+    _options(d, 2, "number of stages that may run at the same time; they share the cores")
+    d.text("--target", "NAME", "what to make: chain, figures, summary, page, report or another target of the pipeline (breast help "
+           "settings); several are separated by blanks", target)
 
 
-def _declare_run(d: Declaration, r: PipelineRequest) -> None:
+def _declare_run(d: Declaration) -> None:
     d.paragraphs += [
         "Models the breasts of a scan, from its segmentation to both mammographic views, and ends with the path of the page, which shows "
         "where the tumour, or any other place, lies in them. Only the scan must be given: the command prints what it assumed of the "
@@ -74,92 +66,71 @@ def _declare_run(d: Declaration, r: PipelineRequest) -> None:
         "MATERIALS=wellman; `breast help settings` lists them. File names are relative to the current folder. A scan, or a file in a "
         "setting, whose name make cannot handle (blanks, quotes, brackets, ...) is accessed through a link with a plain name in "
         "DIR/.names; the name of the run's folder has underscores in place of such characters."]
-    d.positionals.append(Argument("text", (), "SCAN", "T1-weighted MR in which fat is bright, patient prone: NRRD, NIfTI, MetaImage or a "
-                                  "DICOM folder", store=_into(r, "scan")))
-    d.options.append(Argument("choice", ("--side",), "NAME", "breast to model: the patient's left or right (default: both, if the scan "
-                              "shows both)", choices=SIDES, store=_into(r, "side")))
-    r.target = "summary page"
-    _case_options(d, r)
+    d.word("SCAN", "T1-weighted MR in which fat is bright, patient prone: NRRD, NIfTI, MetaImage or a DICOM folder")
+    d.choice("--side", SIDES, "breast to model: the patient's left or right (default: both, if the scan shows both)")
+    _case_options(d, "summary page")
     d.examples += [("breast run scan.nrrd", "results in ./runs/scan-left and ./runs/scan-right, each with page.html"),
                    ("breast run scan.nrrd --side left", "results in ./runs/scan-left"),
                    ("breast run 'my scans/patient 1' --side right TUMOUR=-60,-40,12 --runs /data/runs",
                     "a DICOM folder, and a tumour to follow, at L, P, S in mm as DICOM and 3D Slicer's LPS have them")]
 
 
-def _declare_demo(d: Declaration, r: PipelineRequest) -> None:
+def _declare_demo(d: Declaration) -> None:
     d.paragraphs.append(
         "Simulates the MR scan of a phantom of average size, runs the pipeline on it, and shows the table of landmark displacements, the "
         "errors against the phantom's truth, and where the pictures are. SETTING=value changes a setting that `breast help settings` "
         "lists, such as PRESET=paper.")
-    _case_options(d, r)
+    _case_options(d, "summary")
     d.examples += [("breast demo", "results in ./runs/average"),
                    ("breast demo PRESET=small ELEMENTS=6 'PHANTOM_OPTIONS=--coarse 2'", "a tiny breast, in about a minute")]
 
 
-def _declare_page(d: Declaration, r: PipelineRequest) -> None:
-    (_declare_run if r.scan else _declare_demo)(d, r)
-    r.target, r.scan = "page", ""
-    d.options = [option for option in d.options if option.label != "--target"]
-
-
-def _request_to_slurm(d: Declaration, r: PipelineRequest, name: str, placeholder: str, help: str) -> None:
-    setting = "CLUSTER_" + name.lstrip("-").upper()
-
-    def store(values: list[str]) -> None:
-        if setting in r.settings:
-            raise BreastError(f"{name} and {setting}= are both given")
-        r.settings[setting] = values[0]
-    d.options.append(Argument("text", (name,), placeholder, help, store=store))
-
-
-def _declare_cohort(d: Declaration, r: PipelineRequest) -> None:
-    r.target = "cohort"
+def _declare_cohort(d: Declaration) -> None:
     d.paragraphs.append(
         "Runs the pipeline on every case file of DIR (*.case, */case.txt, with one KEY = VALUE per line, where MR or PRESET names the "
         "scan). It continues after a case that fails, and ends with one table of all cases (cohort.tsv, cohort.html) and the contours of "
         "every segmentation (contours.html). File names in a case file are relative to the current folder. SETTING=value applies to all "
         "cases and overrides their files.")
-    d.positionals.append(Argument("text", (), "DIR", "folder of case files", store=_into(r, "scan")))
-    _options(d, r, "number of cases that may run at the same time; they share the cores")
-    d.options += [
-        Argument("flag", ("--slurm",), "", "submit the cases to Slurm as one job array, followed by a job that makes the table; --dry-run "
-                 "prints the script", store=_into(r, "slurm")),
-        Argument("flag", ("--local",), "", "run the cases as processes on this machine (the default)", store=_into(r, "local")),
-        Argument("flag", ("--resume",), "", "with --slurm, submit only the cases that are missing or out of date; runs on this machine "
-                 "always do so", store=lambda values: r.settings.update(RESUME="1"))]
-    for name, placeholder, help in (
-            ("--partition", "NAME", "with --slurm, the partition"),
-            ("--account", "NAME", "with --slurm, the account"),
-            ("--time", "T", "with --slurm, the time limit of a case in the format of sbatch, such as 45 (minutes) or 2:00:00 (default: "
-             "estimated from measured cost)"),
-            ("--memory", "MB", "with --slurm, the memory of a case (default: estimated from measured cost)"),
-            ("--cores", "N", "with --slurm, the number of cores of a case (default: 1)")):
-        _request_to_slurm(d, r, name, placeholder, help)
+    d.word("DIR", "folder of case files")
+    _options(d, 1, "number of cases that may run at the same time; they share the cores")
+    d.flag("--slurm", "submit the cases to Slurm as one job array, followed by a job that makes the table; --dry-run prints the script")
+    d.flag("--local", "run the cases as processes on this machine (the default)")
+    d.flag("--resume", "with --slurm, submit only the cases that are missing or out of date; runs on this machine always do so")
+    d.text("--partition", "NAME", "with --slurm, the partition")
+    d.text("--account", "NAME", "with --slurm, the account")
+    d.text("--time", "T", "with --slurm, the time limit of a case in the format of sbatch, such as 45 (minutes) or 2:00:00 (default: "
+           "estimated from measured cost)")
+    d.text("--memory", "MB", "with --slurm, the memory of a case (default: estimated from measured cost)")
+    d.text("--cores", "N", "with --slurm, the number of cores of a case (default: 1)")
     d.examples += [("breast cohort patients --jobs 4", "results in ./runs/cohort-patients"),
                    ("breast cohort patients --slurm --partition long --resume",
                     "a job array of the cases that are missing or out of date")]
 
 
-def _declare(r: PipelineRequest) -> Declaration:
-    declare = {"run": _declare_run, "demo": _declare_demo, "page": _declare_page, "cohort": _declare_cohort}.get(r.command)
+def _declare(command: str, of_scan: bool = True) -> Declaration:
+    """of_scan: whether a page is that of a scan."""
+    declare = {"run": _declare_run, "demo": _declare_demo, "page": _declare_run if of_scan else _declare_demo,
+               "cohort": _declare_cohort}.get(command)
     if declare is None:
-        raise Failed(f"no command {r.command}")
-    d = Declaration("breast " + r.command, COMMANDS[r.command])
-    declare(d, r)
+        raise Failed(f"no command {command}")
+    d = Declaration("breast " + command, COMMANDS[command])
+    declare(d)
+    if command in ("page", "cohort"):
+        d.options = [option for option in d.options if option.label != "--target"]
+        d.args.target = command
     return d
 
 
 def pipeline_command(name: str) -> Declaration:
     """The declaration of `run`, `demo`, `page` or `cohort` for help and completion. Raises Failed for another name."""
-    d = _declare(PipelineRequest(name, scan="SCAN" if name == "page" else ""))
+    d = _declare(name)
     if name == "page":
         d.positionals[0].placeholder = "[SCAN]"
         d.paragraphs = ["Runs the pipeline as `breast run` does on a scan, or as `breast demo` if none is given, as far as the page RUN/page.html: "
                         "pointing at a place in one view shows the curve on which it lies in the other, with its band."]
         d.examples = [("breast page", "runs/average/page.html"),
                       ("breast page scan.nrrd --side left", "runs/scan-left/page.html, without the figures")]
-    d.positionals.append(Argument("text", (), "[SETTING=value]", "a setting of the pipeline: `breast help settings` lists them",
-                                  repeatable=True))
+    d.words("[SETTING=value]", "a setting of the pipeline: `breast help settings` lists them")
     return d
 
 
@@ -203,16 +174,32 @@ def _check(r: PipelineRequest) -> None:
         raise BreastError(f"--target '{r.target}': is not the name of a target")
 
 
+def _request_to_slurm(given: dict[str, object], settings: dict[str, str]) -> None:
+    """What is asked of Slurm, as settings."""
+    for name in ("partition", "account", "time", "memory", "cores"):
+        setting = "CLUSTER_" + name.upper()
+        if given.get(name) and setting in settings:
+            raise BreastError(f"--{name} and {setting}= are both given")
+        if given.get(name):
+            settings[setting] = str(given[name])
+    if given.get("resume"):
+        settings["RESUME"] = "1"
+
+
 def parse_request(command: str, words: Sequence[str]) -> PipelineRequest:
     """Raises BreastError for an unknown option, a superfluous word, a setting given twice, or a side that is missing or contradicted."""
-    r = PipelineRequest(command)
+    of_scan = command == "run"
     if command == "page":  # of a scan, if one is given
-        given = tokenize(pipeline_command("run"), words).positionals
-        r.scan = next((word for word in given if not _SETTING.fullmatch(word) or os.path.exists(word)), "")
-    d = _declare(r)
+        named = tokenize(pipeline_command("run"), words).positionals
+        of_scan = any(not _SETTING.fullmatch(word) or os.path.exists(word) for word in named)
+    d, settings = _declare(command, of_scan), {}
     tokens = tokenize(d, words)
-    _take_settings(tokens, bool(d.positionals), r.settings)
+    _take_settings(tokens, bool(d.positionals), settings)
     assign(d, tokens)
+    given = vars(d.args)
+    _request_to_slurm(given, settings)
+    r = PipelineRequest(command, given.get("scan") or given.get("dir", ""), given.get("side", ""), given["runs"], given["target"],
+                        given["jobs"], given["dry_run"], given.get("slurm", False), given.get("local", False), settings)
     _check(r)
     if r.slurm:
         r.settings["CLUSTER"] = "slurm"

@@ -6,7 +6,6 @@ import numpy as np
 
 from .inputs import Inputs, need
 from .layout import SMALL, Picture, points
-from .table import Table
 
 _SERIES = (("q1p0", "dome", False, "Q1/P0 dome", "#0072B2", "o", "-"), ("q2p1", "dome", False, "Q2/P1 dome", "#D55E00", "s", "--"),
            ("q1p0", "cuboid", False, "Q1/P0 cuboid", "#009E73", "^", "-."),
@@ -15,8 +14,8 @@ _SERIES = (("q1p0", "dome", False, "Q1/P0 dome", "#0072B2", "o", "-"), ("q2p1", 
 
 def draw(inputs: Inputs) -> Picture:
     need(inputs.tables, "cost", "a table of tabulate cost")
-    table, picture = Table(inputs.tables[0]), Picture(900, 640)
-    seconds, error = table.numbers("cpu_s"), table.numbers("supine_error_mm")
+    table, picture = inputs.tables[0], Picture(900, 640)
+    seconds, error = np.array(table.numbers("cpu_s")), np.array(table.numbers("supine_error_mm"))
     element, template, solver = (np.array(table.texts(name)) for name in ("element", "template", "solver"))
     panel = picture.panel(0, 0, 1, 1)
     panel.caption("Error against run time: distance to the finest solution")

@@ -9,7 +9,7 @@ from ..geometry import Sheet
 from .body import lateral_view, oblique_view
 from .colours import MUSCLE, RIM, SKIN, Colour
 from .inputs import Inputs, need
-from .layout import Picture
+from .layout import Picture, from_two_sides
 from .points import add_points
 from .scene import Facets, Look, Scene
 
@@ -40,17 +40,14 @@ def _add_sheet(scene: Scene, sheet: Sheet, rim: np.ndarray, look: Look, line: Co
 
 def draw(inputs: Inputs) -> Picture:
     need(inputs.geometry, "geometry", "a geometry .vtkhdf")
-    geometry, picture, scene = inputs.geometry, Picture(1600, 800), Scene()
+    geometry, scene = inputs.geometry, Scene()
     _add_sheet(scene, geometry.skin, geometry.rim_skin, Look(SKIN, 0.75), (0.35, 0.25, 0.2))
     _add_sheet(scene, geometry.wall, geometry.rim_wall, Look(MUSCLE), (0.1, 0.03, 0.03))
     scene.balls(geometry.nipple[None], 2.5, (0.75, 0.35, 0.3))
     for cloud in inputs.clouds:
         add_points(scene, cloud)
     nv, nu = np.array(geometry.skin.x.shape[:2]) - 1
-    captions = (f"(a) cubic-Hermite sheets, {nu} x {nv} patches; blue: rim of the body",
-                f"(b) {geometry.side} breast from its outer side; mean distance of the fit {geometry.fit_mm['mean']:.2f} mm")
-    for k, view in enumerate((oblique_view(geometry.side), lateral_view(geometry.side))):
-        panel = picture.panel(0.5 * k, 0, 0.5 * (k + 1), 1)
-        panel.caption(captions[k])
-        panel.scene(scene, view)
-    return picture
+    return from_two_sides(scene, (
+        (oblique_view(geometry.side), f"cubic-Hermite sheets, {nu} x {nv} patches; blue: rim of the body"),
+        (lateral_view(geometry.side),
+         f"{geometry.side} breast from its outer side; mean distance of the fit {geometry.fit_mm['mean']:.2f} mm")))

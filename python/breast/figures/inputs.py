@@ -10,6 +10,7 @@ from ..geometry import Geometry
 from ..labels import Labels
 from ..mammogram import Mammogram
 from ..state import State
+from ..text_table import Table
 from ..volume import Volume
 from ..xml_mesh import XmlMesh
 
@@ -25,7 +26,7 @@ class Inputs:
     curves: dict[str, list[Line]] = field(default_factory=dict)
     scan: Volume | None = None
     labels: Labels | None = None
-    tables: list[str] = field(default_factory=list)
+    tables: list[Table] = field(default_factory=list)
 
     def compressed(self) -> list[State]:
         return [state for state in self.states if state.contact is not None]

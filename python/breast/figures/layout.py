@@ -71,6 +71,16 @@ class Picture:
         return rounded.astype(np.uint8)
 
 
+def from_two_sides(scene: Scene, views: Sequence[tuple[Camera, str]]) -> Picture:
+    """One scene seen by two cameras side by side, each with its caption."""
+    picture = Picture(1600, 800)
+    for k, (camera, words) in enumerate(views):
+        panel = picture.panel(0.5 * k, 0, 0.5 * (k + 1), 1)
+        panel.caption(f"({'ab'[k]}) {words}")
+        panel.scene(scene, camera)
+    return picture
+
+
 class Panel:
     """A part of a page with its own scale. `low` (2) is its corner on the page, `size` (2) its extent, `top` the height below
     which there is room for a drawing, pixels.

@@ -6,20 +6,15 @@ import numpy as np
 
 from .body import add_body, oblique_view
 from .inputs import Inputs, need
-from .layout import Picture
+from .layout import Picture, from_two_sides
 from .scene import Camera, Scene
 
 
 def draw(inputs: Inputs) -> Picture:
     need(inputs.states, "mesh", "a mesh .vtkhdf")
-    state, picture, scene = inputs.states[0], Picture(1600, 800), Scene()
+    state, scene = inputs.states[0], Scene()
     add_body(scene, state, state.points, edges=True)
     front = oblique_view(state.side)
-    views = front, Camera(front.direction * np.array([1, -1, 1]), front.up)
-    captions = (f"(a) {len(state.hexahedra)} hexahedra, {len(state.points)} nodes ({state.template[0]})",
-                "(b) from behind: back of the model (dark) and cut surface, where it ends")
-    for k in range(2):
-        panel = picture.panel(0.5 * k, 0, 0.5 * (k + 1), 1)
-        panel.caption(captions[k])
-        panel.scene(scene, views[k])
-    return picture
+    return from_two_sides(scene, (
+        (front, f"{len(state.hexahedra)} hexahedra, {len(state.points)} nodes ({state.template[0]})"),
+        (Camera(front.direction * np.array([1, -1, 1]), front.up), "from behind: back of the model (dark) and cut surface, where it ends")))

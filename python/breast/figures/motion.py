@@ -6,14 +6,13 @@ import numpy as np
 
 from .inputs import Inputs, need
 from .layout import SMALL, Picture, points
-from .table import Table
 
 _DEPTHS = (("0_20", "0-20"), ("20_40", "20-40"), ("above_40", "above 40"))
 
 
 def draw(inputs: Inputs) -> Picture:
     need(inputs.tables, "motion", "a table of population")
-    table, picture = Table(inputs.tables[0]), Picture(1000, 480)
+    table, picture = inputs.tables[0], Picture(1000, 480)
     rows = {name: n for n, name in enumerate(table.texts("quantity"))}
     one = not (np.nan_to_num(table.numbers("sd")) > 0).any()
     model = "this breast" if one else "model, mean and SD over breasts"
@@ -27,8 +26,8 @@ def draw(inputs: Inputs) -> Picture:
                                                        ("mean", "sd", 0.08, "o", "#D55E00", model)):
             found = [(n, rows[f"{start}_{key}_mm"]) for n, (key, _) in enumerate(_DEPTHS) if f"{start}_{key}_mm" in rows]
             at, which = (np.array(part) for part in zip(*found)) if found else (np.zeros(0), np.zeros(0, int))
-            axes.errorbar(at + shift, table.numbers(mean)[which], np.nan_to_num(table.numbers(sd)[which]), fmt=marker, capsize=4,
-                          color=colour, label=label, linewidth=points(2.5))
+            means, deviations = np.array(table.numbers(mean))[which], np.nan_to_num(table.numbers(sd))[which]
+            axes.errorbar(at + shift, means, deviations, fmt=marker, capsize=4, color=colour, label=label, linewidth=points(2.5))
         axes.set_xlim(-0.5, 2.5)
         axes.set_ylim(*limits)
         axes.set_xticks(range(3), [words for _, words in _DEPTHS])

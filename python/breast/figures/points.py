@@ -8,7 +8,7 @@ from ..xml_mesh import XmlMesh
 from .body import lateral_view, oblique_view
 from .colours import MUSCLE, SKIN
 from .inputs import Inputs, need
-from .layout import Picture
+from .layout import Picture, from_two_sides
 from .scene import Scene
 
 DOT_MM = 0.7
@@ -30,13 +30,9 @@ def add_points(scene: Scene, cloud: XmlMesh) -> None:
 
 def draw(inputs: Inputs) -> Picture:
     need(inputs.clouds, "points", "a .vtp of data points")
-    cloud, picture, scene = inputs.clouds[0], Picture(1600, 800), Scene()
+    cloud, scene = inputs.clouds[0], Scene()
     add_points(scene, cloud)
     # No mesh states the side; it follows from the centre of the points in x.
     side = "left" if cloud.points[:, 0].mean() >= 0 else "right"
-    for k, (view, words) in enumerate(((oblique_view(side), "(a) data points: skin (light), chest wall (dark)"),
-                                       (lateral_view(side), "(b) from the outer side"))):
-        panel = picture.panel(0.5 * k, 0, 0.5 * (k + 1), 1)
-        panel.caption(words)
-        panel.scene(scene, view)
-    return picture
+    return from_two_sides(scene, ((oblique_view(side), "data points: skin (light), chest wall (dark)"),
+                                  (lateral_view(side), "from the outer side")))

@@ -93,7 +93,7 @@ def _inputs(args: Any) -> list[tuple[str, str, Inputs]]:
     scan = load_scan(args.scan, args.series) if args.scan else None
     if args.all:
         return inputs_of_run(files, scan, labels, args.only.split(",") if args.only else [])
-    return [(args.figure, args.figure, inputs_of_figure(args.figure, files, scan, labels))]
+    return [(args.figure, args.figure, inputs_of_figure(files, scan, labels))]
 
 
 def _draw(drawn: list[tuple[str, str, Inputs]], targets: list[Path]) -> None:

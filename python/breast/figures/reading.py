@@ -6,27 +6,23 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from ..curves import Line, read_curves
 from ..errors import BreastError
-from ..geometry import read_geometry
 from ..labels import read_labels
-from ..mammogram import read_mammogram
-from ..state_file import read_state
+from ..loading import load
+from ..text_table import read_table
 from ..volume import Volume
-from ..xml_mesh import read_xml_mesh
-from . import FIGURES
 from .inputs import Inputs
 from .of_run import PICTURES, RunPicture, pictures_of
 
 
-def inputs_of_figure(figure: str, files: Sequence[Path], scan: Volume | None, labels: Path | None) -> Inputs:
-    """What the files of one figure hold; which kind a .vtkhdf and a .vtp is follows from the figure."""
+def inputs_of_figure(files: Sequence[Path], scan: Volume | None, labels: Path | None) -> Inputs:
+    """What the files of one figure hold."""
     inputs = Inputs(scan=scan, labels=read_labels(labels) if labels else None)
     for file in files:
         if file.suffix == ".tsv":
-            inputs.tables.append(str(file))
+            inputs.tables.append(read_table(file))
         else:
-            _add(inputs, _read(file, figure == "geometry", FIGURES[figure].of_points))
+            _add(inputs, file, _read(file))
     return inputs
 
 
@@ -46,40 +42,33 @@ def inputs_of_run(files: Sequence[Path], scan: Volume | None, labels: Path | Non
         raise BreastError(f"--all: no picture of a run is drawn from {', '.join(named)} alone",
                           None, "give files with the names they have in a run, such as mesh.vtkhdf and cc.vti")
     used = {name for picture in wanted for name in (*picture.files, *picture.also) if name in named}
-    read = {name: read_labels(named[name]) if name == "labels.vtkhdf" else
-            _read(named[name], name == "geometry.vtkhdf", name == "points.vtp") for name in sorted(used)}
+    read = {name: read_labels(named[name]) if name == "labels.vtkhdf" else _read(named[name]) for name in sorted(used)}
 
     def inputs_of(picture: RunPicture) -> Inputs:
         inputs = Inputs(scan=scan, labels=read["labels.vtkhdf"]) if picture.scan else Inputs()
         for name in (*picture.files, *picture.also):
             if name in read and name != "labels.vtkhdf":
-                _add(inputs, read[name])
+                _add(inputs, named[name], read[name])
         return inputs
     return [(picture.name, picture.figure, inputs_of(picture)) for picture in wanted]
 
 
-def _read(file: Path, geometry: bool, cloud: bool) -> Any:
-    if file.suffix == ".vti":
-        return read_mammogram(file)
-    if file.suffix == ".vtp":
-        return read_xml_mesh(file) if cloud else _curves(file)
-    return read_geometry(file) if geometry else read_state(file)
-
-
-def _add(inputs: Inputs, content: Any) -> None:
+def _add(inputs: Inputs, file: Path, content: Any) -> None:
     kind = type(content).__name__
     if kind == "Geometry":
         inputs.geometry = content
     elif kind == "dict":
         inputs.curves = content
-    else:
+    elif kind in ("State", "Mammogram", "XmlMesh"):
         {"State": inputs.states, "Mammogram": inputs.mammograms, "XmlMesh": inputs.clouds}[kind].append(content)
+    else:
+        raise BreastError(f"no figure is drawn from a file of this kind ({kind}) alone", file)
 
 
-def _curves(file: Path) -> dict[str, list[Line]]:
-    curves = read_curves(file)
-    for line in (line for lines in curves.values() for line in lines):
+def _read(file: Path) -> Any:
+    content = load(file)
+    for line in (line for lines in content.values() for line in lines) if isinstance(content, dict) else ():
         for name in ("u_mm", "v_mm", "query"):
             if name not in line.arrays:
                 raise BreastError(f"the file of curves has no PointData {name}", file, "make it with cc2mlo")
-    return curves
+    return content

@@ -16,6 +16,7 @@ from .body import (add_body, add_plates, compression_words, from_below, has_tumo
 from .colours import COLUMN, INK, SHAPES, TUMOUR, Colour, Stroke
 from .inputs import Inputs, need
 from .layout import RING, SMALL, Panel, Picture
+from .matching import add_columns
 from .scene import Camera, Scene
 
 _SIZE = (1120, 560)
@@ -34,19 +35,9 @@ class _View:
     flat: np.ndarray
 
 
-def moved_columns(state: State, curves: dict[str, list[Line]]) -> list[np.ndarray]:
-    """The tissue that lies above each point asked for in CC, lines (n, 3) LPS mm in a state; what lies in no element is left out.
-
-    Between the plates of the other view it is the curve, seen along the beam.
-    """
-    lines = (state.transport(line.points, "imaged", "points", within=1.0) for line in curves.get("column in imaged", []))
-    return [line.points[line.inside] for line in lines if np.count_nonzero(line.inside) > 1]
-
-
 def _scene(state: State, curves: dict[str, list[Line]]) -> Scene:
     scene = Scene()
-    for column in moved_columns(state, curves):  # first, as in the figure matching
-        scene.tube(column, 1.0, COLUMN, through=True)
+    add_columns(scene, state, curves)  # first, as in the figure matching
     add_body(scene, state, state.points, _SKIN, gland_opacity=_GLAND)
     if state.contact:
         add_plates(scene, state, state.points, two_plates(state), _PLATES)

@@ -44,7 +44,7 @@ def _add_tissues(picture: Picture, state: State) -> None:
 
 def _pressed(picture: Picture, inputs: Inputs, state: State, left: float, letter: str) -> tuple[Panel, Scene, Camera, str]:
     panel, scene = picture.panel(left, 0, left + 0.25, _SPLIT), Scene()
-    add_columns(scene, inputs.curves, "column in CC" if state.contact.view == "CC" else "column in MLO")
+    add_columns(scene, state, inputs.curves)
     add_body(scene, state, state.points, skin_opacity=0.3, gland_opacity=0.85)
     add_plates(scene, state, state.points, two_plates(state), 0.4)
     add_image_border(scene, state)

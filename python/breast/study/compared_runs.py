@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import astuple, dataclass, fields
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 
 from ..cases.compression import VIEWS
@@ -81,7 +81,7 @@ class Pair:
     @cached_property
     def rows(self) -> list[Row]:
         """Every quantity that both runs have, and what differs in the model."""
-        makers: tuple[Callable[[], Iterator[Row]], ...] = (self._landmarks, self._images, self._curve) if self._same_place else ()
+        makers: tuple[Callable[[], Iterator[Row]], ...] = (self._landmarks, self._curve) if self._same_place else ()
         rows = [row for make in (*makers, self._views, self._breast) for row in make()]
         if not rows:
             raise BreastError(f"nothing can be compared with {self.second}: no stage of the chain is in both", self.first)
@@ -123,28 +123,22 @@ class Pair:
         return (first, second) if first and second else None
 
     def _landmarks(self) -> Iterator[Row]:
-        for landmark in ("nipple", "tumour", *self._other_landmarks()):
-            for stage, (key, where) in _PLACES.items():
-                both = self._both(stage)
-                places = [report.place(landmark, key) for report in both] if both else [None]
-                if both and None not in places:
-                    a, b = (place for place in places if place is not None)
-                    errors = [fixed(report.number(f"landmarks/{report.landmark(landmark)}/error_estimate_mm"), 2) for report in both]
-                    yield Row("landmarks", f"{_called(landmark, both)} {where}", "mm", _place(a), _place(b), fixed(math.dist(a, b), 2),
-                              *errors)
-
-    def _other_landmarks(self) -> list[str]:
+        """Where the landmarks are in the shapes and, of those that everybody looks for, on the images."""
         known = self._reports["mesh"][0].find("landmarks")
-        return [name for name in known if name not in ("nipple", "tumour", "artificial_tumour")] if isinstance(known, dict) else []
-
-    def _images(self) -> Iterator[Row]:
+        others = [name for name in known if name not in ("nipple", "tumour", "artificial_tumour")] if isinstance(known, dict) else []
+        for landmark in ("nipple", "tumour", *others):
+            for stage, (key, where) in _PLACES.items():
+                yield from self._at(landmark, stage, where, partial(StageReport.place, landmark=landmark, what=key))
         for stage, where in _IMAGES.items():
-            both = self._both(stage)
-            for landmark in ("nipple", "tumour") if both else ():
-                places = [_pair(report.find(f"landmarks/{report.landmark(landmark)}/uv_mm")) for report in both or ()]
-                if both and None not in places:
-                    a, b = (place for place in places if place is not None)
-                    yield Row("landmarks", f"{_called(landmark, both)} {where}", "mm", _place(a), _place(b), fixed(math.dist(a, b), 2))
+            for landmark in ("nipple", "tumour"):
+                yield from self._at(landmark, stage, where, partial(_on_image, landmark=landmark))
+
+    def _at(self, landmark: str, stage: str, where: str, place_in: Callable[[StageReport], tuple[float, ...] | None]) -> Iterator[Row]:
+        both = self._both(stage)
+        a, b = map(place_in, both) if both else (None, None)
+        if both and a and b:
+            errors = [fixed(report.number(f"landmarks/{report.landmark(landmark)}/error_estimate_mm"), 2) for report in both]
+            yield Row("landmarks", f"{_called(landmark, both)} {where}", "mm", _place(a), _place(b), fixed(math.dist(a, b), 2), *errors)
 
     def _numbers(self, topic: str, stage: str, numbers: tuple[_Number, ...], prefix: str = "") -> Iterator[Row]:
         both = self._both(stage)
@@ -188,9 +182,11 @@ def _place(place: tuple[float, ...]) -> str:
     return " ".join(fixed(x, 1) for x in place)
 
 
-def _pair(entry: object) -> tuple[float, float] | None:
-    numbers = [x for x in entry if isinstance(x, (int, float))] if isinstance(entry, list) else []
-    return (float(numbers[0]), float(numbers[1])) if len(numbers) == 2 else None
+def _on_image(report: StageReport, landmark: str) -> tuple[float, ...] | None:
+    """u and v, mm."""
+    entry = report.find(f"landmarks/{report.landmark(landmark)}/uv_mm")
+    numbers = [float(x) for x in entry if isinstance(x, (int, float))] if isinstance(entry, list) else []
+    return tuple(numbers) if len(numbers) == 2 else None
 
 
 def _signed(value: float, decimals: int) -> str:

@@ -2,12 +2,10 @@
 """The kinds of tables and pages that tabulate makes."""
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..command.nearest import nearest
-from ..errors import BreastError
+from ..command.kinds import Kinds
 from .table import Table, read_table
 
 
@@ -45,42 +43,6 @@ class Request:
         return "calibrated to this row" if self.calibrated else ""
 
 
-@dataclass(frozen=True)
-class Kind:
-    """`arguments` as in "RUN VARIANT..." or "RUN [PHANTOM.json]"."""
-
-    name: str
-    arguments: str
-    help: str
-    make: Callable[[Request], Table | str]
-
-    def check_count(self, count: int) -> None:
-        """Raises BreastError for too few or too many words."""
-        names = self.arguments.split()
-        least = sum(not name.startswith("[") for name in names)
-        usage = f"usage: tabulate {self.name} {self.arguments}"
-        if count < least:
-            raise BreastError(f"{self.name}: has {count} arguments and needs {least}; {usage}")
-        if count > len(names) and not names[-1].endswith("..."):
-            raise BreastError(f"{self.name}: has {count} arguments and takes {len(names)}; {usage}")
-
-
-KINDS: dict[str, Kind] = {}
-Make = Callable[[Request], "Table | str"]
-
-
-def kind(name: str, arguments: str, help: str) -> Callable[[Make], Make]:
-    """Declares what a function makes of a request: a table, or the text for stdout."""
-    def declared(make: Make) -> Make:
-        KINDS[name] = Kind(name, arguments, help, make)
-        return make
-
-    return declared
-
-
-def kind_called(name: str) -> Kind:
-    if name in KINDS:
-        return KINDS[name]
-    near = nearest(name, KINDS)
-    hint = f"did you mean '{near}'?" if near else "tabulate --help-all explains all kinds"
-    raise BreastError(f"'{name}' is not a kind of table or page; {hint}")
+KINDS = Kinds("tabulate", "a kind of table or page")
+kind = KINDS.kind
+"""Declares what a function makes of a request: a table, or the text for stdout."""

@@ -6,7 +6,6 @@ import numpy as np
 
 from breast.figures.inputs import Inputs, need
 from breast.figures.layout import SMALL, Picture, points
-from breast.figures.table import Table
 
 _STAGES = {"chain": "nothing\n(the chain)", "segmentation": "labels", "body": "labels, surfaces\nand mesh",
            "tissue": "tissue\non the mesh", "cut": "support of\nthe cut", "discretisation": "(finer mesh,\nnot truth)",
@@ -17,7 +16,7 @@ _ERRORS = (("stress_free_mean_mm", "stress-free", "#0072B2", ""), ("supine_mean_
 
 def draw(inputs: Inputs) -> Picture:
     need(inputs.tables, "budget", "a table of tabulate budget")
-    table, picture = Table(inputs.tables[0]), Picture(1200, 620)
+    table, picture = inputs.tables[0], Picture(1200, 620)
     replaced = table.texts("replaced")
     panel = picture.panel(0, 0, 1, 1)
     panel.caption("Error budget: what is left when one stage is replaced by the truth; dashed: the chain as it is; "
@@ -25,7 +24,7 @@ def draw(inputs: Inputs) -> Picture:
     axes = panel.plot_axes("replaced by the truth", "mean error at the true places (mm)")
     at = np.arange(len(replaced))
     for k, (column, words, colour, hatch) in enumerate(_ERRORS):
-        values, left = table.numbers(column), at + 0.27 * (k - 1)
+        values, left = np.array(table.numbers(column)), at + 0.27 * (k - 1)
         axes.bar(left, np.nan_to_num(values), 0.25, color=colour, hatch=hatch, edgecolor="white", label=words)
         if "chain" in replaced and np.isfinite(values[replaced.index("chain")]):
             axes.axhline(values[replaced.index("chain")], color=colour, linestyle="--", linewidth=points(1.5), zorder=0.9)

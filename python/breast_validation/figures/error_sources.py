@@ -6,7 +6,6 @@ import numpy as np
 
 from breast.figures.inputs import Inputs, need
 from breast.figures.layout import SMALL, Picture, points
-from breast.figures.table import Table
 
 _MEASURED = {"phantom's truth": ("#0072B2", ""), "finer solution": ("#56B4E9", "///"), "other assumption": ("#E69F00", "..."),
              "same breast again": ("#999999", "xxx")}
@@ -17,8 +16,8 @@ _LEAST_MM = 1e-3
 
 def draw(inputs: Inputs) -> Picture:
     need(inputs.tables, "error-sources", "a table of tabulate error-sources")
-    table = Table(inputs.tables[0])
-    mm, measured = table.numbers("mm"), table.texts("measured")
+    table = inputs.tables[0]
+    mm, measured = np.array(table.numbers("mm")), table.texts("measured")
     words = [f"{source}, {shape}" for source, shape in zip(table.texts("source"), table.texts("shape"))]
     order = np.argsort(mm, kind="stable")
     picture = Picture(1200, 120 + 30 * len(order))

@@ -6,7 +6,6 @@ import numpy as np
 
 from breast.figures.inputs import Inputs, need
 from breast.figures.layout import SMALL, Picture, points
-from breast.figures.table import Table
 
 _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#333333", "#E69F00", "#CC79A7", "#56B4E9")
 _MARKERS, _STYLES = "osD^vP*", ("-", "--", "-.", ":")
@@ -14,8 +13,8 @@ _MARKERS, _STYLES = "osD^vP*", ("-", "--", "-.", ":")
 
 def draw(inputs: Inputs) -> Picture:
     need(inputs.tables, "methods-cost", "a table of tabulate methods-cost")
-    table = Table(inputs.tables[0])
-    method, seconds, error = np.array(table.texts("method")), table.numbers("cpu_s"), table.numbers("error_mm")
+    table = inputs.tables[0]
+    method, seconds, error = np.array(table.texts("method")), np.array(table.numbers("cpu_s")), np.array(table.numbers("error_mm"))
     measured = table.texts("measured")
     picture = Picture(1100, 760)
     panel = picture.panel(0, 0, 1, 1)
