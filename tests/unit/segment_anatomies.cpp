@@ -209,6 +209,27 @@ TEST(Arm, IsLeftOutOrSaid) {
   }
 }
 
+/// Ghosts and noise of the air that are brighter than half of muscle, but not than half of the dimmest skin.
+TEST(Haze, OfTheAirBesideTheBodyIsNoBody) {
+  const ScanOfRoundChest truth;
+  Volume<float> scan = truth.image();
+  const Segmentation clear = run(scan);
+  const Grid& grid = scan.grid;
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int j = 0; j < grid.size[1]; ++j) {
+      for (int i = 0; i < grid.size[0]; ++i) {
+        const Vec3 p = grid.to_patient(Vec3(i, j, k));
+        const double haze = 35 + 8 * std::sin(p[0] / 12) * std::sin(p[1] / 9),
+                     fade = std::clamp((70 - p[1]) / 40, 0.0, 1.0);
+        if (truth.signal(p) == 0 && p[1] > -60) scan.at(i, j, k) += float(fade * haze);
+      }
+    }
+  }
+  const Segmentation hazy = run(scan);
+  EXPECT_LT(hazy.contrast.silent_share, 0.01);
+  EXPECT_GT(compare_labels(hazy.labels, clear.labels).breast.dice, 0.97);
+}
+
 /// A bridge of skin folds between the breasts closes a handle round the cleft: the body's surface
 /// is no longer a disc.
 TEST(Handle, BreastsThatTouchAreRightOrSaid) {

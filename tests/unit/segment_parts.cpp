@@ -138,7 +138,7 @@ TEST(Debris, DimGhostBesideTheBodyGoes) {
   Volume<float> scan(grid);
   for (std::size_t n = 0; n < scan.voxels.size(); ++n)
     scan.voxels[n] = clean.voxels[n] ? 1000.f : body.voxels[n] ? 80.f : 5.f;
-  remove_ghosts(body, scan, 0);
+  remove_ghosts(body, scan);
   EXPECT_EQ(body.voxels, clean.voxels);
 }
 
@@ -154,9 +154,9 @@ TEST(Debris, HazeOfFreeAirInFrontGoes) {
   for (std::size_t n = 0; n < scan.voxels.size(); ++n)
     scan.voxels[n] = clean.voxels[n] ? 1000.f : body.voxels[n] ? 45.f : 5.f;
   Mask kept = body;
-  remove_ghosts(kept, scan, 0);
+  remove_ghosts(kept, scan);
   EXPECT_EQ(kept.voxels, body.voxels);
-  remove_ghosts(body, scan, grid.size[1] * grid.spacing[1]);
+  remove_haze(body, scan);
   EXPECT_EQ(body.voxels, clean.voxels);
 }
 

@@ -242,6 +242,11 @@ TEST(SegmentRobustness, ObliqueAxes) {
   EXPECT_NEAR(std::abs(result.roll_degrees), 15, 1);
   expect_same(result, 0.92, 1.5, 6);
 }
+TEST(SegmentRobustness, ObliqueAxesOfANarrowFieldOfView) {
+  const Segmentation result = run(testing::oblique(testing::narrower(patient().scan, 0.08), 12));
+  EXPECT_NEAR(std::abs(result.roll_degrees), 12, 1.5);
+  EXPECT_NEAR(result.midline_mm, patient().base.midline_mm, 6);
+}
 TEST(SegmentRobustness, NarrowFieldOfView) {
   expect_same(testing::narrower(patient().scan, 0.04), 0.93, 1, 4);
 }

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <opencv2/imgproc.hpp>
 
 #include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "core/statistics/percentile.hpp"
 #include "core/units.hpp"
 #include "segment/body/debris.hpp"
+#include "segment/body/slices.hpp"
 #include "segment/grid/itk_filters.hpp"
 #include "segment/grid/noise.hpp"
 #include "segment/grid/otsu.hpp"
@@ -29,16 +29,6 @@ double threshold_of_values(const std::vector<float>& values) {
   return first + width * otsu_class(count, 0);
 }
 
-cv::Mat disc(double radius_mm, const Grid& grid) {
-  const int rx = std::max(1, int(std::lround(radius_mm / grid.spacing[0])));
-  const int ry = std::max(1, int(std::lround(radius_mm / grid.spacing[1])));
-  return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * rx + 1, 2 * ry + 1});
-}
-
-cv::Mat slice_of(Mask& mask, int k) {
-  return cv::Mat(mask.grid.size[1], mask.grid.size[0], CV_8U, &mask.at(0, 0, k));
-}
-
 void open_slices(Mask& mask) {
   for (int k = 0; k < mask.grid.size[2]; ++k) {
     cv::Mat slice = slice_of(mask, k);
@@ -49,11 +39,8 @@ void open_slices(Mask& mask) {
 /// Closes gaps, then fills everything air cannot reach from the front.
 void close_and_fill(Mask& mask) {
   for (int k = 0; k < mask.grid.size[2]; ++k) {
-    cv::Mat slice = slice_of(mask, k), closed;
-    const int border = 8;
-    cv::copyMakeBorder(slice, closed, border, border, border, border, cv::BORDER_REPLICATE);
-    cv::morphologyEx(closed, closed, cv::MORPH_CLOSE, disc(2.5, mask.grid));
-    slice |= closed(cv::Rect(border, border, slice.cols, slice.rows));
+    cv::Mat slice = slice_of(mask, k);
+    close_gaps(slice, 2.5, mask.grid);
     cv::Mat outside = slice == 0;
     cv::Mat front(1, slice.cols, CV_8U);
     outside.row(0).copyTo(front);
@@ -196,8 +183,8 @@ Found body_above(const Volume<float>& scan, double threshold, double from, Side 
   found.beside_ml = second_component_ml(mask);
   mask = largest_component(mask);
   close_and_fill(mask);
-  // Haze over the midline of some slices does not move the middle of all.
-  remove_ghosts(mask, scan, median(find_torso(mask, side).cleft));
+  remove_haze(mask, scan);
+  remove_ghosts(mask, scan);
   mask = largest_component(mask);
   const TorsoFront torso = find_torso(mask, side);
   fill_chest(mask, torso, from);

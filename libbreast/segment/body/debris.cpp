@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <opencv2/imgproc.hpp>
 
 #include "core/units.hpp"
+#include "segment/body/slices.hpp"
 #include "segment/grid/filters.hpp"
 #include "segment/grid/itk_filters.hpp"
 
@@ -18,18 +18,55 @@ constexpr double opening = 3.5;  // mm: radius of the disc
 constexpr double standing = 2;   // mm: less is the roundness of the skin itself
 constexpr double spared = 20;    // mm about the most anterior points
 
+Volume<float> smooth_within(const Mask& body, const Volume<float>& scan) {
+  constexpr double smoothing = 1.5;  // mm
+  Volume<float> tissue(scan.grid);
+  for (std::size_t n = 0; n < tissue.voxels.size(); ++n)
+    tissue.voxels[n] = body.voxels[n] ? scan.voxels[n] : 0;
+  return gaussian(tissue, smoothing);
+}
+
+/// What is not much dimmer than the brightest tissue around it: skin and fat enclose the rest of the body.
+Mask shell_of(const Mask& body, const Volume<float>& scan) {
+  constexpr double neighbourhood = 75, gap = 2.5;  // mm
+  constexpr float haze = 0.07f;
+  const Volume<float> tissue = smooth_within(body, scan);
+  const Volume<float> brightest =
+      resampled(box_maximum(coarsened(tissue, {4, 4, 2}), neighbourhood), scan.grid);
+  Mask shell(scan.grid);
+  for (std::size_t n = 0; n < shell.voxels.size(); ++n)
+    shell.voxels[n] = body.voxels[n] && tissue.voxels[n] > haze * brightest.voxels[n];
+  for (int k = 0; k < shell.grid.size[2]; ++k) close_gaps(slice_of(shell, k), gap, shell.grid);
+  return shell;
+}
+
+/// What is reached from the front by steps backwards and sideways: where the view cuts the shell, the way into the
+/// body does not lead forward again.
+Mask air_from_front(const Mask& shell) {
+  const auto& size = shell.grid.size;
+  Mask air(shell.grid);
+  for (int k = 0; k < size[2]; ++k) {
+    for (int j = 0; j < size[1]; ++j) {
+      for (int i = 0; i < size[0]; ++i)
+        air.at(i, j, k) = !shell.at(i, j, k) && (j == 0 || air.at(i, j - 1, k));
+      for (int i = 1; i < size[0]; ++i)
+        if (air.at(i - 1, j, k) && !shell.at(i, j, k)) air.at(i, j, k) = 1;
+      for (int i = size[0] - 2; i >= 0; --i)
+        if (air.at(i + 1, j, k) && !shell.at(i, j, k)) air.at(i, j, k) = 1;
+    }
+  }
+  return air;
+}
+
 /// What the opening takes off each axial slice; `height` is how far it stands out (mm).
 Mask taken_off(const Mask& body, Volume<float>& height) {
   const Grid& grid = body.grid;
   Mask residue(grid);
-  const int rx = std::max(1, int(std::lround(opening / grid.spacing[0]))),
-            ry = std::max(1, int(std::lround(opening / grid.spacing[1])));
-  const cv::Mat disc = cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * rx + 1, 2 * ry + 1});
   for (int k = 0; k < grid.size[2]; ++k) {
     const cv::Mat slice(grid.size[1], grid.size[0], CV_8U,
                         const_cast<std::uint8_t*>(&body.at(0, 0, k)));
     cv::Mat opened, distance;
-    cv::morphologyEx(slice, opened, cv::MORPH_OPEN, disc);
+    cv::morphologyEx(slice, opened, cv::MORPH_OPEN, disc(opening, grid));
     if (cv::countNonZero(opened) == 0) continue;
     cv::distanceTransform(opened == 0, distance, cv::DIST_L2, cv::DIST_MASK_5);
     for (int j = 0; j < grid.size[1]; ++j) {
@@ -87,24 +124,24 @@ double remove_debris(Mask& body, int midline) {
   return taken * grid.voxel_volume() / mm3_per_ml;
 }
 
-void remove_ghosts(Mask& body, const Volume<float>& scan, double front) {
-  constexpr double deepest = 25, neighbourhood = 15, wide_neighbourhood = 60,
-                   smoothing = 1.5;  // mm
-  constexpr float dim = 0.15f, haze = 0.07f;
-  const Grid& grid = body.grid;
-  Volume<float> tissue(grid);
-  for (std::size_t n = 0; n < tissue.voxels.size(); ++n)
-    tissue.voxels[n] = body.voxels[n] ? scan.voxels[n] : 0;
-  const Volume<float> brightest = box_maximum(gaussian(tissue, smoothing), neighbourhood);
-  const Volume<float> brightest_around =
-      resampled(box_maximum(coarsened(brightest, {4, 4, 2}), wide_neighbourhood), grid);
-  Mask ghost(grid);
-  for (std::size_t n = 0; n < ghost.voxels.size(); ++n) {
-    const double depth = double(n / grid.size[0] % grid.size[1]) * grid.spacing[1];
-    ghost.voxels[n] =
-        body.voxels[n] && (scan.voxels[n] < dim * brightest.voxels[n] ||
-                           (depth < front && scan.voxels[n] < haze * brightest_around.voxels[n]));
+void remove_haze(Mask& body, const Volume<float>& scan) {
+  constexpr double skin = 1.5;  // mm
+  Mask air = air_from_front(shell_of(body, scan));
+  for (int k = 0; k < body.grid.size[2]; ++k) {
+    cv::Mat slice = slice_of(body, k), far;
+    cv::erode(slice_of(air, k), far, disc(skin, body.grid), {-1, -1}, 1, cv::BORDER_REPLICATE);
+    slice.setTo(0, far);
   }
+}
+
+void remove_ghosts(Mask& body, const Volume<float>& scan) {
+  constexpr double deepest = 25, neighbourhood = 15;  // mm
+  constexpr float dim = 0.15f;
+  const Grid& grid = body.grid;
+  const Volume<float> brightest = box_maximum(smooth_within(body, scan), neighbourhood);
+  Mask ghost(grid);
+  for (std::size_t n = 0; n < ghost.voxels.size(); ++n)
+    ghost.voxels[n] = body.voxels[n] && scan.voxels[n] < dim * brightest.voxels[n];
   // From the air inwards, a voxel of the axial slice at a time.
   std::vector<std::size_t> peeled;
   for (double depth = 0; depth < deepest; depth += grid.spacing[0]) {

@@ -12,11 +12,13 @@ namespace breast {
 /// between the halves.
 double remove_debris(Mask& body, int midline);
 
+/// Removes from the body what is dim and farther than 1.5 mm from all that its skin and fat enclose: haze of the air in front of
+/// it and beside it. Dim is less than 0.07 of the brightest tissue within about 75 mm. The interior of the chest is enclosed.
+void remove_haze(Mask& body, const Volume<float>& scan);
+
 /// Removes from the body, from its border inwards by at most 25 mm, voxels dimmer than 0.15 of the
 /// brightest tissue within 15 mm: ghosts of the heart beside the body that exceed the threshold.
-/// Skin is brighter than that; the dark interior of the chest is filled in again afterwards. In
-/// front of `front` (mm from the first row), where there is only breast, also what is dimmer than
-/// 0.07 of the brightest tissue within 60 mm: haze of free air, which has no tissue nearby.
-void remove_ghosts(Mask& body, const Volume<float>& scan, double front);
+/// Skin is brighter than that; the dark interior of the chest is filled in again afterwards.
+void remove_ghosts(Mask& body, const Volume<float>& scan);
 
 }  // namespace breast

@@ -97,9 +97,8 @@ HeightField turned(const HeightField& skin, const Grid& grid, double angle) {
 
 /// The skin as nearly its own mirror image as a turn of the body makes it.
 struct MirrorImage {
-  double angle = 0;         ///< radians; 0 where no turn makes it much more so
-  int column = 0;           ///< its own mirror image about that column, turned by the angle
-  int straight_column = 0;  ///< and as it is
+  double angle = 0;  ///< radians; 0 where no turn makes it much more so
+  int column = 0;    ///< its own mirror image about that column, turned by the angle
 };
 
 MirrorImage mirror_image(const HeightField& skin, const Grid& grid) {
@@ -109,7 +108,7 @@ MirrorImage mirror_image(const HeightField& skin, const Grid& grid) {
   const double deepest = grid.size[1] * grid.spacing[1];
   MirrorImage found;
   const Mirror straight = mirror_column(skin, grid.spacing[0], deepest);
-  found.straight_column = found.column = straight.column;
+  found.column = straight.column;
   Mirror least = straight;
   double best = 0;
   const auto try_angle = [&](double degrees) {
@@ -201,17 +200,20 @@ std::vector<double> mean_profile(const HeightField& skin, double deepest) {
   return profile;
 }
 
-/// No second breast in view: the body is narrower than a chest, and the skin does not come forward
-/// on both sides of its mirror column (a single breast's own axis).
-bool one_breast_in_view(const HeightField& skin, int mirror, double spacing, double deepest) {
+/// No second breast in view: the body is narrower than a chest, and the skin, set upright, does not come
+/// forward on both sides of its mirror column (a single breast's own axis).
+bool one_breast_in_view(const HeightField& skin, const Grid& grid, const MirrorImage& image) {
   constexpr double narrowest_chest = 270, valley = 8;  // mm
-  const std::vector<double> profile = mean_profile(skin, deepest);
+  const double deepest = grid.size[1] * grid.spacing[1];
+  const std::vector<double> profile =
+      mean_profile(image.angle == 0 ? skin : turned(skin, grid, image.angle), deepest);
   const auto columns =
       std::count_if(profile.begin(), profile.end(), [&](double p) { return p < deepest; });
-  if (double(columns) * spacing >= narrowest_chest) return false;
-  const auto left = std::min_element(profile.begin(), profile.begin() + mirror + 1);
-  const auto right = std::min_element(profile.begin() + mirror, profile.end());
-  return profile[mirror] - std::max(*left, *right) < valley;
+  if (double(columns) * grid.spacing[0] >= narrowest_chest) return false;
+  const auto mirror = profile.begin() + image.column;
+  const double left = *std::min_element(profile.begin(), mirror + 1),
+               right = *std::min_element(mirror, profile.end());
+  return *mirror - std::max(left, right) < valley;
 }
 
 /// Deepest column between the breast's tip and the field of view's medial end.
@@ -228,11 +230,11 @@ int medial_valley(const HeightField& skin, double deepest, Side side) {
 TorsoFront find_torso(const Mask& body, Side side) {
   TorsoFront torso;
   torso.skin = first_body_voxel(body);
-  const double spacing = body.grid.spacing[0], deepest = body.grid.size[1] * body.grid.spacing[1];
   const MirrorImage image = mirror_image(torso.skin, body.grid);
-  torso.one_breast = one_breast_in_view(torso.skin, image.straight_column, spacing, deepest);
-  torso.midline = midline_of(torso.skin, body.grid, image);
-  if (torso.one_breast) torso.midline = medial_valley(torso.skin, deepest, side);
+  torso.one_breast = one_breast_in_view(torso.skin, body.grid, image);
+  torso.midline = torso.one_breast
+                      ? medial_valley(torso.skin, body.grid.size[1] * body.grid.spacing[1], side)
+                      : midline_of(torso.skin, body.grid, image);
   torso.cleft = cleft_depth(torso.skin, torso.midline, body.grid);
   if (std::isnan(torso.cleft[0]))
     throw input_error("no skin over the sternum: is the midline in the scan?");
@@ -242,9 +244,8 @@ TorsoFront find_torso(const Mask& body, Side side) {
 
 double body_roll(const Mask& body) {
   const HeightField skin = first_body_voxel(body);
-  const double spacing = body.grid.spacing[0], deepest = body.grid.size[1] * body.grid.spacing[1];
   const MirrorImage image = mirror_image(skin, body.grid);
-  return one_breast_in_view(skin, image.straight_column, spacing, deepest) ? 0 : image.angle;
+  return one_breast_in_view(skin, body.grid, image) ? 0 : image.angle;
 }
 
 }  // namespace breast
