@@ -29,26 +29,10 @@ double threshold_of_values(const std::vector<float>& values) {
   return first + width * otsu_class(count, 0);
 }
 
-void open_slices(Mask& mask) {
-  for (int k = 0; k < mask.grid.size[2]; ++k) {
-    cv::Mat slice = slice_of(mask, k);
-    cv::morphologyEx(slice, slice, cv::MORPH_OPEN, disc(1.5, mask.grid));
-  }
-}
-
 /// Closes gaps, then fills everything air cannot reach from the front.
 void close_and_fill(Mask& mask) {
-  for (int k = 0; k < mask.grid.size[2]; ++k) {
-    cv::Mat slice = slice_of(mask, k);
-    close_gaps(slice, 2.5, mask.grid);
-    cv::Mat outside = slice == 0;
-    cv::Mat front(1, slice.cols, CV_8U);
-    outside.row(0).copyTo(front);
-    for (int i = 0; i < slice.cols; ++i) {
-      if (outside.at<uchar>(0, i) == 255) cv::floodFill(outside, {i, 0}, 128);
-    }
-    slice.setTo(1, outside != 128);
-  }
+  close_slices(mask, 2.5);
+  fill_slices_from_front(mask);
 }
 
 /// Lungs may open to the scan's side where the field of view cuts the body: air with body in front
@@ -179,7 +163,7 @@ Found body_above(const Volume<float>& scan, double threshold, double from, Side 
   Mask& mask = found.mask;
   mask = Mask(scan.grid);
   for (std::size_t n = 0; n < mask.voxels.size(); ++n) mask.voxels[n] = scan.voxels[n] > threshold;
-  open_slices(mask);
+  open_slices(mask, 1.5);
   found.beside_ml = second_component_ml(mask);
   mask = largest_component(mask);
   close_and_fill(mask);

@@ -36,7 +36,7 @@ Mask shell_of(const Mask& body, const Volume<float>& scan) {
   Mask shell(scan.grid);
   for (std::size_t n = 0; n < shell.voxels.size(); ++n)
     shell.voxels[n] = body.voxels[n] && tissue.voxels[n] > haze * brightest.voxels[n];
-  for (int k = 0; k < shell.grid.size[2]; ++k) close_gaps(slice_of(shell, k), gap, shell.grid);
+  close_slices(shell, gap);
   return shell;
 }
 
@@ -58,27 +58,6 @@ Mask air_from_front(const Mask& shell) {
   return air;
 }
 
-/// What the opening takes off each axial slice; `height` is how far it stands out (mm).
-Mask taken_off(const Mask& body, Volume<float>& height) {
-  const Grid& grid = body.grid;
-  Mask residue(grid);
-  for (int k = 0; k < grid.size[2]; ++k) {
-    const cv::Mat slice(grid.size[1], grid.size[0], CV_8U,
-                        const_cast<std::uint8_t*>(&body.at(0, 0, k)));
-    cv::Mat opened, distance;
-    cv::morphologyEx(slice, opened, cv::MORPH_OPEN, disc(opening, grid));
-    if (cv::countNonZero(opened) == 0) continue;
-    cv::distanceTransform(opened == 0, distance, cv::DIST_L2, cv::DIST_MASK_5);
-    for (int j = 0; j < grid.size[1]; ++j) {
-      for (int i = 0; i < grid.size[0]; ++i) {
-        residue.at(i, j, k) = slice.at<uchar>(j, i) && !opened.at<uchar>(j, i);
-        height.at(i, j, k) = float(distance.at<float>(j, i) * grid.spacing[0]);
-      }
-    }
-  }
-  return residue;
-}
-
 /// Most anterior voxel of a range of columns; i = -1 when it is empty.
 std::array<int, 3> most_anterior(const Mask& body, int first, int last) {
   const Grid& grid = body.grid;
@@ -97,7 +76,7 @@ std::array<int, 3> most_anterior(const Mask& body, int first, int last) {
 double remove_debris(Mask& body, int midline) {
   const Grid& grid = body.grid;
   Volume<float> height(grid);
-  const Components parts = components(taken_off(body, height));
+  const Components parts = components(opening_residue(body, opening, height));
   const std::array<std::array<int, 3>, 2> fronts{
       most_anterior(body, 0, midline), most_anterior(body, midline + 1, grid.size[0] - 1)};
   std::vector<char> debris(parts.count + 1, 0), nipple(parts.count + 1, 0);
@@ -127,11 +106,9 @@ double remove_debris(Mask& body, int midline) {
 void remove_haze(Mask& body, const Volume<float>& scan) {
   constexpr double skin = 1.5;  // mm
   Mask air = air_from_front(shell_of(body, scan));
-  for (int k = 0; k < body.grid.size[2]; ++k) {
-    cv::Mat slice = slice_of(body, k), far;
-    cv::erode(slice_of(air, k), far, disc(skin, body.grid), {-1, -1}, 1, cv::BORDER_REPLICATE);
-    slice.setTo(0, far);
-  }
+  erode_slices(air, skin);
+  for (std::size_t n = 0; n < body.voxels.size(); ++n)
+    if (air.voxels[n]) body.voxels[n] = 0;
 }
 
 void remove_ghosts(Mask& body, const Volume<float>& scan) {

@@ -1,33 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Morphology in the axial slices of a mask.
+// Morphology in the axial slices of a mask, with discs of at least one voxel.
 #pragma once
-
-#include <algorithm>
-#include <cmath>
-#include <opencv2/imgproc.hpp>
 
 #include "segment/grid/grid_ops.hpp"
 
 namespace breast {
 
-inline cv::Mat slice_of(Mask& mask, int k) {
-  return cv::Mat(mask.grid.size[1], mask.grid.size[0], CV_8U, &mask.at(0, 0, k));
-}
+/// Takes away what a disc of this radius (mm) does not fit into.
+void open_slices(Mask& mask, double radius);
 
-/// A disc of this radius (mm), of at least one voxel.
-inline cv::Mat disc(double radius, const Grid& grid) {
-  const int rx = std::max(1, int(std::lround(radius / grid.spacing[0]))),
-            ry = std::max(1, int(std::lround(radius / grid.spacing[1])));
-  return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * rx + 1, 2 * ry + 1});
-}
+/// What open_slices would take away; `height` becomes how far each voxel stands out of what is left (mm). Slices of which nothing
+/// would be left have neither.
+Mask opening_residue(const Mask& mask, double radius, Volume<float>& height);
 
-/// Adds gaps that a disc of this radius (mm) does not fit into, as if the slice continued beyond its border.
-inline void close_gaps(cv::Mat slice, double radius, const Grid& grid) {
-  cv::Mat closed;
-  const int border = 8;
-  cv::copyMakeBorder(slice, closed, border, border, border, border, cv::BORDER_REPLICATE);
-  cv::morphologyEx(closed, closed, cv::MORPH_CLOSE, disc(radius, grid));
-  slice |= closed(cv::Rect(border, border, slice.cols, slice.rows));
-}
+/// Adds gaps that a disc of this radius (mm) does not fit into, as if each slice continued beyond its border.
+void close_slices(Mask& mask, double radius);
+
+/// Takes away what is nearer to the border of the mask than this radius (mm), as if each slice continued beyond its own border.
+void erode_slices(Mask& mask, double radius);
+
+/// Adds everything that air cannot reach from the front row of each slice.
+void fill_slices_from_front(Mask& mask);
 
 }  // namespace breast
