@@ -21,8 +21,8 @@ FILENAME ~ /[.]mk$/ && /^[A-Z0-9_]+ [?]= [^\\]*$/ {
   if (said[2] !~ /[$]/) plain[said[1]] = said[2]
 }
 FILENAME ~ /settings.tsv$/ && $1 != "setting" {
-  default = $7 == "-" ? plain[$1] : $7
-  settings = settings folded("  " $1 "=" $6, $8 (default == "" ? "" : "  (" default ")"), 104) "\n"
+  usual = $7 == "-" ? plain[$1] : $7
+  settings = settings folded("  " $1 "=" $6, $8 (usual == "" ? "" : "  (" usual ")"), 104) "\n"
 }
 END {
   print installed ? "breast run SCAN [--side left|right] [--target TARGET] [SETTING=VALUE]...\n" \

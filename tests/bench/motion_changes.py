@@ -36,8 +36,11 @@ def supports(path: Path) -> tuple[str, str]:
 
 def multiplied(support: str, part: str, factor: float) -> str:
     """The support with the resistance of one part multiplied: of a border, or ("") of what is named first."""
-    pattern = rf"({part}=)([\d.e-]+)" if part else r"(:)([\d.e-]+)"
-    return re.sub(pattern, lambda found: f"{found[1]}{float(found[2]) * factor:g}", support, count=1)
+    pattern = rf"({part}=)([\d.e+-]+)" if part else r"(:)([\d.e+-]+)"
+    changed, count = re.subn(pattern, lambda found: f"{found[1]}{float(found[2]) * factor:g}", support, count=1)
+    if count == 0:
+        sys.exit(f"motion_changes: the support {support} names no {part or 'resistance'}")
+    return changed
 
 
 def changes(wall: str, cut: str) -> dict[str, list[str]]:
@@ -92,13 +95,13 @@ def row(change: str, options: list[str], materials: Path, runs: list[Path], fitt
             reports.append(report)
     if not motions:
         sys.exit(f"motion_changes: {change}: no side of {len(runs)} was solved")
-    for side, motion in motions.items():
-        fitted.setdefault(side, motion["nipple_moved_mm"])
+    if not fitted:
+        fitted.update({side: motion["nipple_moved_mm"] for side, motion in motions.items()})
     light = {side: motion for side, motion in motions.items() if not side.startswith(HEAVY)}
     heavy = {side: motion for side, motion in motions.items() if side.startswith(HEAVY)}
     return {"change": change, "solved": f"{len(motions)}/{len(runs)}", **{name: f"{mean_over_women(light, name):.1f}" for name in MEANS},
             "heavy_nipple_moved_mm": f"{mean_over_women(heavy, 'nipple_moved_mm'):.1f}",
-            "largest_change_of_nipple_mm": f"{max(abs(motion['nipple_moved_mm'] - fitted[side]) for side, motion in motions.items()):.1f}",
+            "largest_change_of_nipple_mm": f"{max(abs(motions[side]['nipple_moved_mm'] - fitted[side]) for side in motions.keys() & fitted.keys()):.1f}",
             "least_scaled_jacobian": f"{min(report['min_scaled_jacobian'] for report in reports):.2f}",
             "most_newton_iterations": max(report["most_iterations"] for report in reports)}
 

@@ -42,8 +42,10 @@ pass "unknown settings and values are refused by name, with a suggestion"
 make -f Makefile.pipeline help > "$work/out"
 for name in $(awk -F '\t' '/^#/ || $1 ~ /^(goal|setting)$/ || $NF == "-" { next } FILENAME ~ /settings/ { print $1 "=" } FILENAME !~ /settings/ { print $1 }' \
   pipelines/settings.tsv pipelines/goals.tsv); do
-  grep -q "^  $name" "$work/out" || fail "help lists $name"
+  case $name in *=) end= ;; *) end='( |$)' ;; esac
+  grep -qE "^  $name$end" "$work/out" || fail "help lists $name"
 done
+grep -q '^  ELEMENTS=.*(16)' "$work/out" && grep -q '^  SEGMENT=.*(segment)' "$work/out" || fail "help has plain defaults"
 pass "the help lists targets and settings"
 
 # Defaults, which depend on the case, are those of settings, once each.
