@@ -56,7 +56,7 @@ class BackwardSolve {
   LoadedProblem loaded_;
   SaddleSolver solver_;
   BackwardSteps steps_;
-  // The same body with corners that yield; null if they never resist.
+  // The same body with corners that resist less; null if they never resist.
   std::unique_ptr<LoadedProblem> soft_corners_;
   std::unique_ptr<BackwardSteps> first_steps_;
 };

@@ -19,7 +19,8 @@ double flat_skin_cm2(const Work& work);
 
 /// Extents that are within limits for every adult breast.
 struct Extents {
-  /// Share of the body on this side in front of the sternal skin, in the slices that show the breast, that is not labelled breast.
+  /// Of what lies in front of the skin over the sternum on this side, in the slices that show the breast: the share that is not
+  /// labelled breast.
   double front_left_out_percent = 0;
   double lateral_border_mm = 0;   ///< farthest column on the wall from the midline
   double nipple_depth_mm = 0;     ///< from the nipple back to the wall

@@ -61,9 +61,8 @@ def load(path: str | os.PathLike[str]) -> Any:
     name = path.name.lower()
     if name.endswith((".vtkhdf", ".h5")):
         schema = file_schema(path)
-        if schema not in _BY_SCHEMA:
-            said = f"has schema '{schema}'" if schema else "states no schema: not a file of libbreast"
-            raise BreastError(f"{said}; read are {', '.join(SCHEMAS)}", path)
+        if not schema:
+            raise BreastError(f"states no schema: not a file of libbreast; read are {', '.join(SCHEMAS)}", path)
         return _BY_SCHEMA[schema](path)
     for ending in sorted(_BY_ENDING, key=len, reverse=True):
         if name.endswith(ending):

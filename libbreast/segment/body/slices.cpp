@@ -13,6 +13,11 @@ cv::Mat slice_of(Mask& mask, int k) {
   return cv::Mat(mask.grid.size[1], mask.grid.size[0], CV_8U, &mask.at(0, 0, k));
 }
 
+/// The same to read; OpenCV has no matrix of constants.
+const cv::Mat slice_of(const Mask& mask, int k) {
+  return slice_of(const_cast<Mask&>(mask), k);
+}
+
 cv::Mat disc(double radius, const Grid& grid) {
   const int rx = std::max(1, int(std::lround(radius / grid.spacing[0]))),
             ry = std::max(1, int(std::lround(radius / grid.spacing[1])));
@@ -32,8 +37,7 @@ Mask opening_residue(const Mask& mask, double radius, Volume<float>& height) {
   const Grid& grid = mask.grid;
   Mask residue(grid);
   for (int k = 0; k < grid.size[2]; ++k) {
-    const cv::Mat slice(grid.size[1], grid.size[0], CV_8U,
-                        const_cast<std::uint8_t*>(&mask.at(0, 0, k)));
+    const cv::Mat slice = slice_of(mask, k);
     cv::Mat opened, distance;
     cv::morphologyEx(slice, opened, cv::MORPH_OPEN, disc(radius, grid));
     if (cv::countNonZero(opened) == 0) continue;
