@@ -39,6 +39,9 @@ HOSTILE = (*CODE, "a\nb")
 class Settings(InFolder):
     def setUp(self):
         super().setUp()
+        # Another folder's runs would be those of another scan.
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(self.folder)
         self.pipelines = self.folder / "pipelines"
         for name in ("materials", "studies"):
             (self.pipelines / name).mkdir(parents=True)
