@@ -95,10 +95,18 @@ def _stated(source: Path, pattern: str) -> str:
 
 
 def _commit_here() -> str:
-    """The commit of the source tree in which this program runs, marked if there are uncommitted changes."""
-    said = subprocess.run(["git", "describe", "--always", "--dirty", "--exclude", "*"], capture_output=True, text=True, check=False)
+    """The commit of the source tree in which this program runs, marked "-dirty" if anything but its documents, in which the table
+    stands that is being made, has uncommitted changes.
+    """
+    commit = _git("describe", "--always", "--exclude", "*")
+    changed = _git("diff", "--name-only", "HEAD", "--", ":(top)", ":(top,exclude)docs")
+    return commit + "-dirty" if changed else commit
+
+
+def _git(*words: str) -> str:
+    said = subprocess.run(["git", *words], capture_output=True, text=True, check=False)
     if said.returncode != 0:
-        raise Failed(f"git describe: {one_line(said.stderr)}")
+        raise Failed(f"git {words[0]}: {one_line(said.stderr)}")
     return said.stdout.partition("\n")[0]
 
 
