@@ -333,6 +333,13 @@ TEST(Contrast, OneOddityIsNoSaturationTwoAre) {
   EXPECT_EQ(refusal_of(behind), "") << "breasts that touch in front of the sternum";
   behind.wall_seen = 0.4;
   EXPECT_NE(refusal_of(behind), "") << "lung taken for muscle";
+  FatContrast thick = bright;
+  thick.sternal_thickness = 32;
+  thick.wall_seen = 0.53;
+  thick.subcutaneous = 0.87;
+  EXPECT_EQ(refusal_of(thick), "") << "a thick layer of bright fat over the sternum";
+  thick.subcutaneous = 0.73;
+  EXPECT_NE(refusal_of(thick), "") << "fat below the skin darker than what lies deeper";
   FatContrast dark = bright;
   dark.subcutaneous = 0.33;
   EXPECT_NE(refusal_of(dark), "") << "fat darker than a third of what surrounds it";
