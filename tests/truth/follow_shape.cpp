@@ -30,6 +30,9 @@ void run(const std::string& file, const std::string& true_file, const std::strin
   const Locator locator(truth, truth.imaged);
   mesh.points.resize(mesh.imaged.size());
   mesh.reference.resize(mesh.imaged.size());
+  std::vector<Vec3> pressure;  // as vectors, so that places inside elements have them as positions
+  for (const double nodal : truth.contact_pressure) pressure.emplace_back(nodal, 0, 0);
+  if (truth.contact) mesh.contact_pressure.resize(mesh.imaged.size());
   double outside = 0;
   for (std::size_t i = 0; i < mesh.imaged.size(); ++i) {
     const Location found = locator.nearest(mesh.imaged[i]);
@@ -39,6 +42,7 @@ void run(const std::string& file, const std::string& true_file, const std::strin
     const Vec3 offset = mesh.imaged[i] - in(truth.imaged);
     outside = std::max(outside, offset.norm());
     mesh.reference[i] = in(truth.reference) + offset;
+    if (truth.contact) mesh.contact_pressure[i] = in(pressure).x();
     mesh.points[i] = truth.contact ? Vec3(in(truth.points) + offset) : mesh.reference[i];
   }
   mesh.contact = truth.contact;
