@@ -99,7 +99,7 @@ def _commit_here() -> str:
     stands that is being made, has uncommitted changes.
     """
     commit = _git("describe", "--always", "--exclude", "*")
-    changed = _git("diff", "--name-only", "HEAD", "--", ":(top)", ":(top,exclude)docs")
+    changed = _git("diff", "--no-relative", "--name-only", "HEAD", "--", ":(top)", ":(top,exclude)docs")
     return commit + "-dirty" if changed else commit
 
 

@@ -18,7 +18,8 @@ class CommitOfATable(InFolder):
             Path(name).write_text("one\n")
         self.git("init", "-q")
         self.git("add", ".")
-        self.git("-c", "user.name=somebody", "-c", "user.email=somebody@example.org", "commit", "-q", "-m", "first")
+        self.git("-c", "user.name=somebody", "-c", "user.email=somebody@example.org", "-c", "commit.gpgsign=false",
+                 "commit", "-q", "-m", "first")
 
     def git(self, *words: str) -> None:
         subprocess.run(["git", *words], check=True)
@@ -31,3 +32,5 @@ class CommitOfATable(InFolder):
         os.chdir("..")
         Path("program.cpp").write_text("two\n")
         self.assertRegex(documents._commit_here(), r"^[0-9a-f]{7,}-dirty$")
+        os.chdir("docs")
+        self.assertRegex(documents._commit_here(), r"^[0-9a-f]{7,}-dirty$", "from any folder of the tree")

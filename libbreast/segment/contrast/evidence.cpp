@@ -16,9 +16,10 @@ namespace breast {
 
 namespace {
 
-/// 0 where scans with bright fat end, 1 at a saturated one, at most `most`.
-double grade(double value, double bright, double saturated, double most) {
-  return std::clamp((value - bright) / (saturated - bright), 0.0, most);
+/// 0 at `none` and before it, rising to 1 at `full` and on to at most `most`. In a score, `none` is where scans with bright fat end
+/// and `full` a saturated one.
+double grade(double value, double none, double full, double most) {
+  return std::clamp((value - none) / (full - none), 0.0, most);
 }
 
 /// What a deep sternum weighs. Bright fat that is thick in front of it is thick below the skin too, and there as bright as the
