@@ -15,12 +15,6 @@ namespace {
 
 constexpr double largest_shift = 1;  // mm
 
-double volume_of(const std::vector<int>& connectivity, const std::vector<Vec3>& x) {
-  HexMesh mesh;
-  mesh.connectivity = connectivity;
-  return mesh_volume(mesh, x);
-}
-
 // Parameters of a node on the skin sheet, rim included.
 Vec2 skin_parameters(const BodyMap& body, const PlacedNodes& nodes, int a) {
   return nodes.support[a] == Support::skin ? nodes.st[a] : body.skin(1, nodes.st[a].x());
@@ -67,8 +61,10 @@ double match_volume(double wanted, const BodyMap& body, const DomeTemplate& dome
     }
     return x;
   };
-  const double now = volume_of(dome.connectivity, nodes.x);
-  const double gain = volume_of(dome.connectivity, shifted(1)) - now;
+  HexTopology mesh;
+  mesh.connectivity = dome.connectivity;
+  const double now = mesh_volume(mesh, nodes.x);
+  const double gain = mesh_volume(mesh, shifted(1)) - now;
   if (!(gain > 0 && wanted > now)) return 0;
   double factor = std::min(2.0 / 3, (wanted - now) / gain);
   const double shape = worst_shape(dome.connectivity, nodes.x);

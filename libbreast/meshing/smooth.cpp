@@ -40,13 +40,23 @@ class Smoother {
       unknowns_.push_back(unknown);
       size_ += unknown.slides ? 2 : 3;
     }
+    found_ = Eigen::VectorXd::Zero(size_);
   }
 
-  Eigen::VectorXd zero() const { return Eigen::VectorXd::Zero(size_); }
+  /// Nodes of the last evaluation of the energy, or of the smallest one since place_found().
   const PlacedNodes& nodes() const { return now_; }
   CornerEnergy& energy() { return energy_; }
   void set_sliding_tether(double weight) { sliding_tether_ = weight; }
+  /// Goes on minimising from the smallest energy found so far; returns the number of evaluations.
+  int minimise(int evaluations) {
+    const auto energy = [this](const Eigen::VectorXd& y, Eigen::VectorXd& gradient) {
+      return value(y, gradient);
+    };
+    return minimise_lbfgs(energy, found_, {.evaluations = evaluations}).evaluations;
+  }
+  void place_found() { place(found_); }
 
+ private:
   double value(const Eigen::VectorXd& y, Eigen::VectorXd& gradient) {
     place(y);
     double sum = energy_.evaluate(now_.x, node_gradient_);
@@ -82,7 +92,6 @@ class Smoother {
     }
   }
 
- private:
   // Position and slopes of a sliding node's surface at its parameters.
   Mat32 chart(int a, const Vec2& st, Vec3& x) const {
     if (start_.support[a] == Support::cut) {
@@ -115,35 +124,33 @@ class Smoother {
   SmoothOptions options_;
   double sliding_tether_ = options_.tether;
   PlacedNodes start_, now_;
+  Eigen::VectorXd found_;  // the unknowns with the smallest energy
   std::vector<Unknown> unknowns_;
   std::vector<Mat32> slopes_;
   std::vector<Vec3> node_gradient_;
   int size_ = 0;
 };
 
-double signed_volume(const std::vector<int>& connectivity, const std::vector<Vec3>& x) {
-  HexMesh mesh;
+HexTopology topology_of(const std::vector<int>& connectivity) {
+  HexTopology mesh;
   mesh.connectivity = connectivity;
-  return mesh_volume(mesh, x);
+  return mesh;
 }
 
-// Minimises the energy from y on and returns the change of the mesh's volume relative to `volume`.
-// Nodes that slide out of a narrow part of the body leave it to flat faces, which cut it off. Where
-// this costs too much volume, they are held ever more strongly; only the last of these weights, a
-// million times the first, weighs as much as the power of a badly shaped corner.
-double improve_corners(const std::vector<int>& connectivity, double volume,
-                       const SmoothOptions& options, Smoother& smoother, Eigen::VectorXd& y,
-                       SmoothReport& report) {
-  const auto energy = [&](const Eigen::VectorXd& at, Eigen::VectorXd& gradient) {
-    return smoother.value(at, gradient);
-  };
+// Improves the corners and returns the relative change of the mesh's volume. Nodes that slide out of
+// a narrow part of the body leave it outside flat faces. Where this costs too much volume, the
+// sliding nodes are held more strongly, in three steps of a hundred: the energy of a badly shaped
+// corner, a power of its distortion, outweighs any weaker hold.
+double improve_corners(const std::vector<int>& connectivity, const std::vector<Vec3>& start,
+                       const SmoothOptions& options, Smoother& smoother, SmoothReport& report) {
+  const HexTopology mesh = topology_of(connectivity);
+  const double volume = mesh_volume(mesh, start);
   double change = 0, tether = options.tether;
   for (int hold = 0; hold < 4; ++hold, tether *= 100) {
     smoother.set_sliding_tether(tether);
-    report.evaluations +=
-        minimise_lbfgs(energy, y, {.evaluations = options.evaluations}).evaluations;
-    smoother.place(y);
-    change = signed_volume(connectivity, smoother.nodes().x) / volume - 1;
+    report.evaluations += smoother.minimise(options.evaluations);
+    smoother.place_found();
+    change = mesh_volume(mesh, smoother.nodes().x) / volume - 1;
     if (std::abs(change) <= options.volume_change) break;
   }
   return change;
@@ -152,9 +159,7 @@ double improve_corners(const std::vector<int>& connectivity, double volume,
 }  // namespace
 
 double worst_shape(const std::vector<int>& connectivity, const std::vector<Vec3>& x) {
-  HexMesh mesh;
-  mesh.connectivity = connectivity;
-  const MeshQuality quality = mesh_quality(mesh, x);
+  const MeshQuality quality = mesh_quality(topology_of(connectivity), x);
   const double folded = quality.min_det / std::max(quality.max_det, 1e-300);
   return quality.min_det > 0 ? quality.min_scaled_jacobian
                              : std::min(quality.min_scaled_jacobian, folded);
@@ -166,10 +171,6 @@ SmoothReport smooth_nodes(const std::vector<int>& connectivity, const BodyMap& b
   SmoothReport report;
   report.before = report.after = worst_shape(connectivity, nodes.x);
   Smoother smoother(connectivity, body, options, held, nodes);
-  Eigen::VectorXd y = smoother.zero();
-  const auto energy = [&](const Eigen::VectorXd& at, Eigen::VectorXd& gradient) {
-    return smoother.value(at, gradient);
-  };
   // First the folds are removed with the plain energy and a regularisation that follows the worst
   // corner; then the p-norm improves the worst corners.
   smoother.set_sliding_tether(1);
@@ -177,13 +178,12 @@ SmoothReport smooth_nodes(const std::vector<int>& connectivity, const BodyMap& b
   for (int round = 0; round < options.untangling_rounds && worst < 1e-3; ++round) {
     smoother.energy().set(
         {options.theta, 1, std::max(1e-3, 0.5 * std::abs(worst - 0.02)), options.mid_edges});
-    report.evaluations += minimise_lbfgs(energy, y, {.evaluations = 60}).evaluations;
+    report.evaluations += smoother.minimise(60);
     worst = smoother.energy().min_det(smoother.nodes().x);
   }
   smoother.energy().set(
       {options.theta, options.power, worst > 0 ? 1e-6 : std::abs(worst), options.mid_edges});
-  const double change = improve_corners(connectivity, signed_volume(connectivity, nodes.x), options,
-                                        smoother, y, report);
+  const double change = improve_corners(connectivity, nodes.x, options, smoother, report);
   const double after = worst_shape(connectivity, smoother.nodes().x);
   if (after > report.before && std::abs(change) <= options.volume_change) {
     nodes = smoother.nodes();

@@ -15,11 +15,12 @@ namespace breast {
 struct SmoothOptions {
   double theta = 0.2;
   int power = 8;
-  double tether = 1e-3;  ///< weight of Σ|x − x_start|²/h²
-  int evaluations = 300;
-  int untangling_rounds = 8;  ///< of 60 evaluations each, while an element is folded
-  double volume_change = 0.02;
-  bool mid_edges = false;  ///< sample the energy at mid-edges too (cuboid)
+  double tether =
+      1e-3;  ///< weight of Σ|x − x_start|²/h²; raised for sliding nodes if volume is lost
+  int evaluations = 300;        ///< at each of up to four weights of the tether
+  int untangling_rounds = 8;    ///< of 60 evaluations each, while an element is folded
+  double volume_change = 0.02;  ///< largest relative change of the volume
+  bool mid_edges = false;       ///< sample the energy at mid-edges too (cuboid)
 };
 
 /// The cuboid's flat corners cannot become well shaped: a high power would sacrifice all others for

@@ -95,8 +95,8 @@ def _stated(source: Path, pattern: str) -> str:
 
 
 def _commit_here() -> str:
-    """The commit of the source tree in which this program runs, marked "-dirty" if anything but its documents, in which the table
-    stands that is being made, has uncommitted changes.
+    """The commit of the source tree in which this program runs, marked "-dirty" if it has uncommitted changes outside docs, where
+    the table that is being made is a change itself.
     """
     commit = _git("describe", "--always", "--exclude", "*")
     changed = _git("diff", "--no-relative", "--name-only", "HEAD", "--", ":(top)", ":(top,exclude)docs")

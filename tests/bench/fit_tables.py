@@ -2,12 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Residuals and certainty of a calibrated set: fit_tables.py REPORT.json SET.tsv residuals|constants > TABLE.tsv
 
-REPORT and SET are those of calibrate-softness (--report and its output). Every breast is named WOMAN-SIDE. `residuals` has one row
-for each quantity that was fitted: what women have, the sd that the fit gave the difference, and what the model has more than women do,
-in all (as the fit
-weighs women and tissue) and for each woman (mean of her sides). `constants` has one row for each constant: its value, the factor by which
-its 95 % interval reaches either way, the constant with which it is correlated most, and the largest change of it in the fits without
-one woman each.
+REPORT and SET are the report and the material set that calibrate-softness writes. Every breast is named WOMAN-SIDE. `residuals` has
+one row for each quantity of the fit: women's mean, the standard deviation that the fit gave the difference, and the model's value
+less women's, for all (as the fit weighs them) and for each woman (mean of her sides). `constants` has one row for each constant: its
+value, the factor by which its 95 % interval reaches either way, the constant with which it is correlated most, and the largest factor
+by which the fit without one of the women changes it.
 """
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What tests share that work on files: a folder of their own, why something is refused, and texts that make or a shell reads as code."""
+import contextlib
 import tempfile
 import unittest
 from pathlib import Path
@@ -23,3 +24,11 @@ class InFolder(unittest.TestCase):
         work = tempfile.TemporaryDirectory()
         self.addCleanup(work.cleanup)
         self.folder = Path(work.name)
+
+
+class StandingInFolder(InFolder):
+    """With that folder as the current one, so that what else lies where the tests are started has no part in them."""
+
+    def setUp(self) -> None:
+        super().setUp()
+        self.enterContext(contextlib.chdir(self.folder))

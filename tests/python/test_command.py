@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The command `breast`: names for make and their links, what was asked for, and programs that cannot write."""
+import contextlib
 import io
 import os
 import subprocess
@@ -17,6 +18,7 @@ from breast.command.commands import unknown_command
 from breast.command.make_name import name_for_make, plain_for_make, plain_name
 from breast.command.request import parse_request
 from breast.errors import BreastError
+from in_folder import StandingInFolder
 
 LINKS = Path("runs/.names")
 
@@ -26,14 +28,8 @@ def touch(name):
     Path(name).write_text("scan")
 
 
-class MakeNames(unittest.TestCase):
+class MakeNames(StandingInFolder):
     """In a folder of their own, as a caller is."""
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.addCleanup(os.chdir, os.getcwd())
-        os.chdir(folder.name)
 
     def test_plain_names(self):
         for name in ("scan.nrrd", "/data/a-b_c.1/scan@2,3+4", "été.nrrd", "乳房/画像.nii.gz"):
@@ -92,9 +88,7 @@ class MakeNames(unittest.TestCase):
 
 class Requests(unittest.TestCase):
     def test_options_and_settings(self):
-        with tempfile.TemporaryDirectory() as folder:
-            self.addCleanup(os.chdir, os.getcwd())
-            os.chdir(folder)
+        with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
             touch("A=b.nrrd")
             r = parse_request("run", ["A=b.nrrd", "--side", "right", "TUMOUR=-60,-40,12", "--runs", "/data", "REDUCTION=40", "--jobs", "2"])
         self.assertEqual((r.scan, r.side, r.runs, r.jobs, r.target), ("A=b.nrrd", "right", "/data", 2, "summary page"))
@@ -163,14 +157,8 @@ class Requests(unittest.TestCase):
             self.assertEqual(" ".join(said), expected)
 
 
-class Assumed(unittest.TestCase):
+class Assumed(StandingInFolder):
     """What is found beside a scan."""
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.addCleanup(os.chdir, os.getcwd())
-        os.chdir(folder.name)
 
     def test_the_tumour_is_found_by_the_name_of_the_scan(self):
         for name in ("a.nrrd", "a-tumour-x.nrrd", "ab-tumour.nrrd", "tumour.nrrd", "a.nrrd-tumour.nrrd"):

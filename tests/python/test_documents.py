@@ -1,18 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The record of the run from which a table of the documents was made."""
-import os
+import contextlib
 import subprocess
 from pathlib import Path
 
 from breast_validation import documents
-from in_folder import InFolder
+from in_folder import StandingInFolder
 
 
-class CommitOfATable(InFolder):
+class CommitOfATable(StandingInFolder):
     def setUp(self) -> None:
         super().setUp()
-        self.addCleanup(os.chdir, os.getcwd())
-        os.chdir(self.folder)
         for name in ("docs/tables/table.tsv", "program.cpp"):
             Path(name).parent.mkdir(parents=True, exist_ok=True)
             Path(name).write_text("one\n")
@@ -27,10 +25,9 @@ class CommitOfATable(InFolder):
     def test_the_table_that_is_being_made_is_no_change_of_the_programs(self) -> None:
         Path("docs/tables/table.tsv").write_text("two\n")
         self.assertRegex(documents._commit_here(), r"^[0-9a-f]{7,}$")
-        os.chdir("docs")
-        self.assertRegex(documents._commit_here(), r"^[0-9a-f]{7,}$", "from any folder of the tree")
-        os.chdir("..")
+        with contextlib.chdir("docs"):
+            self.assertRegex(documents._commit_here(), r"^[0-9a-f]{7,}$", "from any folder of the tree")
         Path("program.cpp").write_text("two\n")
         self.assertRegex(documents._commit_here(), r"^[0-9a-f]{7,}-dirty$")
-        os.chdir("docs")
-        self.assertRegex(documents._commit_here(), r"^[0-9a-f]{7,}-dirty$", "from any folder of the tree")
+        with contextlib.chdir("docs"):
+            self.assertRegex(documents._commit_here(), r"^[0-9a-f]{7,}-dirty$", "from any folder of the tree")

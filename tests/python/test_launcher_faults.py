@@ -14,7 +14,7 @@ import unittest
 from pathlib import Path
 
 import small_run
-from in_folder import InFolder
+from in_folder import StandingInFolder
 
 # What is called, and the module of the program's main(); RUN is a run, OTHER another one.
 CALLS = (("breast.study.tabulate", "tabulate summary RUN"),
@@ -48,11 +48,9 @@ def in_a_child(work):
         return code, texts[0], texts[1].decode(), set(filter(None, os.fsdecode(texts[2]).split("\n")))
 
 
-class Faults(InFolder):
+class Faults(StandingInFolder):
     def setUp(self):
         super().setUp()
-        self.addCleanup(os.chdir, os.getcwd())
-        os.chdir(self.folder)
         for name in ("RUN", "OTHER"):
             shutil.copytree(small_run.folder(), name)
 

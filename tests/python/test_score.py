@@ -13,6 +13,7 @@ from breast.errors import BreastError
 from breast.study.score import CURVE, Score, summary_of, table_of
 from breast.study.seen import by_case, pairs_in, postures_in, read_seen
 from breast.study.table import Table, parse_table
+from in_folder import StandingInFolder
 
 
 def scored(*words):
@@ -35,13 +36,7 @@ class Sums(unittest.TestCase):
         self.assertEqual(table_of(scores[:1]).rows, [["case1", "1", CURVE, "1.000", "-", "0.250", "50 %"]])
 
 
-class Points(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.addCleanup(os.chdir, os.getcwd())
-        os.chdir(folder.name)
-
+class Points(StandingInFolder):
     def test_marks_are_paired_by_their_labels(self):
         Path("m.fcsv").write_text("# CoordinateSystem = LPS\n# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID\n"
                                   "1,1,2,3,0,0,0,1,1,1,0,prone-3,,\n2,4,5,6,0,0,0,1,1,1,0,supine-3,,\n")

@@ -5,7 +5,7 @@ import unittest
 
 from breast.cases.scan_identity import remember_scan
 from breast.cases.settings import case_file_for_make, check_case, check_given
-from in_folder import CODE, InFolder, reason
+from in_folder import CODE, StandingInFolder, reason
 
 SETTINGS = """# what they are
 setting kind of choices may_hold
@@ -36,12 +36,9 @@ RUN name command - -
 HOSTILE = (*CODE, "a\nb")
 
 
-class Settings(InFolder):
+class Settings(StandingInFolder):
     def setUp(self):
         super().setUp()
-        # Another folder's runs would be those of another scan.
-        self.addCleanup(os.chdir, os.getcwd())
-        os.chdir(self.folder)
         self.pipelines = self.folder / "pipelines"
         for name in ("materials", "studies"):
             (self.pipelines / name).mkdir(parents=True)

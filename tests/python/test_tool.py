@@ -6,7 +6,6 @@ import json
 import os
 import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
@@ -15,6 +14,7 @@ from breast.command.nearest import nearest, suggestion
 from breast.command.tool import Tool
 from breast.errors import BreastError, Failed, NotConverged
 from breast.output import write_text, written_by_us
+from in_folder import StandingInFolder
 
 ROOT = Path(__file__).resolve().parents[2]
 PYTHON = ROOT / "python"
@@ -37,12 +37,9 @@ def example():
     return tool
 
 
-class Programs(unittest.TestCase):
+class Programs(StandingInFolder):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.addCleanup(os.chdir, os.getcwd())
-        os.chdir(self.folder.name)
+        super().setUp()
         Path("in.tsv").write_text("a\tb\n")
 
     def run_tool(self, *words, body=lambda run: None):

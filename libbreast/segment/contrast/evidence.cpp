@@ -16,15 +16,15 @@ namespace breast {
 
 namespace {
 
-/// 0 at `none` and before it, rising to 1 at `full` and on to at most `most`. In a score, `none` is where scans with bright fat end
-/// and `full` a saturated one.
+/// Linear from 0 at `none` to 1 at `full` and beyond, never below 0 or above `most`. A score is 0 where scans with bright fat end and
+/// 1 in a saturated scan.
 double grade(double value, double none, double full, double most) {
   return std::clamp((value - none) / (full - none), 0.0, most);
 }
 
-/// What a deep sternum weighs. Bright fat that is thick in front of it is thick below the skin too, and there as bright as the
-/// brightest nearby: 0.82 to 0.91 of it on 52 sides with bright fat (two of one woman 0.76, whose sternum is not deep), at most
-/// 0.76 where fat is saturated and muscle as bright.
+/// Largest score of a sternum that lies deep. It counts less if fat explains the depth: fat that is thick and bright over the
+/// sternum is bright below the skin too. On sides with bright fat, the tissue below the skin has 0.82 to 0.91 of the greatest
+/// brightness nearby (0.76 on both sides of one woman, whose sternum is not deep); with muscle as bright as fat, at most 0.76.
 double deep_sternum(const FatContrast& contrast) {
   if (!contrast.skin_resolved) return 1.2;
   return 1 - 0.2 * grade(contrast.subcutaneous, 0.78, 0.82, 1);

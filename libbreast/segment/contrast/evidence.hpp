@@ -39,7 +39,8 @@ void complete_contrast(FatContrast& contrast, const Work& work, Side side);
 
 /// Evidence of saturated fat: the sum of a score for each quantity, from 0 at the limit of scans with
 /// bright fat to 1 at the value of a saturated scan. A scan with more than `most_evidence` is
-/// refused, which takes at least two abnormal quantities, or subcutaneous tissue darker than a third.
+/// refused, which takes at least two abnormal quantities, subcutaneous tissue darker than a third, or a deep sternum where the skin
+/// is not resolved.
 double saturation_evidence(const FatContrast& contrast);
 constexpr double most_evidence = 1.15;
 
