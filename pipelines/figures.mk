@@ -33,7 +33,11 @@ $(F)/%-states.png: $(RUN)/states/%.vtkhdf $(CURVE) $(RENDER)
 	@mkdir -p $(@D)
 	@[ ! -e $< ] || $(RENDER) $(basename $<)-states/state_*.vtkhdf $(if $(CURVE),$$(ls $(CURVE) 2> /dev/null)) --figure states -o $@
 .SECONDARY: $(of_states)
-states: $(call pictures,supine-states cc-states mlo-states)
+# The page shows them, but is not made again for them whenever a program is newer (results.mk).
+states: $(call pictures,supine-states cc-states mlo-states) $(RUN)/page.html
+ifneq ($(filter states,$(goals)),)
+$(RUN)/page.html: $(call pictures,supine-states cc-states mlo-states)
+endif
 	$(gripped)
 .PHONY: states
 

@@ -73,7 +73,8 @@ endif
 # The page is also made of what there is when the plates do not hold the breast: it says so. Animated pictures that `states` has made are
 # shown; as prerequisites their equilibria would be solved again, so that the page records them and their dates instead. It repeats the
 # warnings of every stage, hence comes after all.
-dated = $(foreach file,$(wildcard $1),$(file) $(shell stat -c %Y $(file)))
+# (Asked of a shell: make remembers which files there were when it began.)
+dated = $(shell stat -c '%n %Y' $1 2> /dev/null)
 page_settings = $(BIN)/tabulate $(call named,$(MR)) $(page_options) $(of_patient) $(call dated,$(call pictures,supine-states cc-states mlo-states))
 $(RUN)/page.html: $(RUN)/lookup.h5 $(addprefix $(RUN)/,cc.vti mlo.vti labels.vtkhdf mesh.vtkhdf supine.vtkhdf) $(CURVE) $(of_patient) $(MR_FILES) $(BIN)/tabulate \
   $(if $(no_tumour),,$(BIN)/cc2mlo) $(call changed,page)

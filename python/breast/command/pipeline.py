@@ -90,7 +90,7 @@ def show_results(targets: Sequence[str], run: str) -> None:
     print(f"Results: {run}")
     if "summary" in targets:
         print("More: the same command with --target report (one page for reading and printing) or slicer")
-    if "page" in targets:
+    if {"page", "states"} & {*targets}:
         print(f"Page: {run}/page.html")
 
 
