@@ -36,6 +36,8 @@ class Page:
     def open(self, width: int, height: int, touch: bool = False, points: str = "") -> None:
         self.browser.size(width, height, touch)
         self.browser.open(self.address + ("#" + points if points else ""))
+        while not self.value("performance.getEntriesByName('first picture').length"):
+            self.browser.frame()
         self.to_pointing()
 
     def to_pointing(self) -> None:
@@ -264,7 +266,7 @@ def check_without_scripts(page: Page) -> None:
     page.browser.go("about:blank")
     page.browser.go(page.address)
     seen = page.browser.call("DOMSnapshot.captureSnapshot", computedStyles=[])["strings"]
-    for said in ("Where to look", "Clock position", "In numbers", "This part needs scripts. Everything above does not."):
+    for said in ("Where to look", "Clock position", "In numbers", "This part needs scripts, which this browser does not run."):
         check(any(said in text for text in seen), f"without scripts the page says '{said}'")
     page.browser.call("Emulation.setScriptExecutionDisabled", value=False)
 

@@ -3,11 +3,13 @@
 import base64
 import dataclasses
 import html
+import io
 import json
 import re
 import shutil
 import unittest
 import unittest.mock
+import zlib
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -21,8 +23,9 @@ from breast.state import TISSUES, Landmark
 
 try:
     import jinja2  # noqa: F401
-    from breast.page import facts, packed
-    from breast.page.lines import line_at
+    from PIL import Image
+    from breast.page import drawing, facts, packed
+    from breast.page.lines import SIDES_90, MatchedLine, line_at
     from breast.page.patient import read_patient
     from breast.page.remarks import banners_of, remarks_of
     from breast.page.views_page import read_views, views_page
@@ -36,8 +39,11 @@ def data_of(page: str) -> dict:
     return json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', page)[1])
 
 
-def unpacked(text: str, kind: str) -> np.ndarray:
-    return np.frombuffer(base64.b64decode(text), kind)
+def unpacked(held: dict, kind: str) -> np.ndarray:
+    """As data.js unpacks them: numbers that were stored as differences add up, and so come round where they are too large."""
+    numbers, step = np.frombuffer(zlib.decompress(base64.b64decode(held["packed"])), held["kind"]), held["step"]
+    assert np.dtype(kind).str[1:] == held["kind"]
+    return np.cumsum(numbers.reshape(-1, step), axis=0, dtype=numbers.dtype).ravel() if step else numbers
 
 
 def words_of(page: str) -> str:
@@ -246,6 +252,21 @@ class WhatIsSaid(unittest.TestCase):
         self.assertIn("about 15 mm to either side of it (90 %)", words_of(page))
         self.assertEqual(page.count('<path class="band" d="M'), 3, "in both pictures and in the legend")
 
+    def test_a_band_goes_round_its_corners_and_ends_at_the_skin(self):
+        image = self.views.pairs[0][0]
+        body = image.images["thickness"] > 0
+        row = body.shape[0] // 2
+        edge = image.pixel_mm * np.flatnonzero(body[row])[-1]
+        points = np.array([[edge - 20, image.pixel_mm * row], [edge, image.pixel_mm * row], [edge - 15, image.pixel_mm * row - 15]])
+        line = MatchedLine(points, np.full(3, 5 / SIDES_90), np.zeros(3), "matched", 41)
+        np.testing.assert_allclose(line.inside_band(points[1] + np.array([[3, 4], [0, 6], [0, 0]])), [0, -1, 5], atol=1e-9)
+        np.testing.assert_allclose(line.inside_band(0.5 * (points[0] + points[1]) + [[0, 4], [0, 5.5]]), [1, -0.5], atol=0.02)
+        for ring in drawing._band(line, image):
+            np.testing.assert_array_equal(ring[0], ring[-1], "closed")
+            u, v = np.rint(ring / image.pixel_mm).astype(int).T
+            near = [body[max(0, j - 2):j + 3, max(0, i - 2):i + 3].any() for i, j in zip(u, v)]
+            self.assertTrue(all(near), "no place of it lies beside the breast")
+
     def test_words_for_places(self):
         for offset, clock in (((0, 0, 20), "12 o'clock"), ((20, 5, 0), "3 o'clock"), ((-20, 5, 0), "9 o'clock"), ((0, 9, -20), "6 o'clock"),
                               ((11, 43, 14), "1 o'clock"), ((3, 40, 4), "behind the nipple"), ((-5, 0, 30), "12 o'clock")):
@@ -392,15 +413,22 @@ class WhatIsSaid(unittest.TestCase):
 
     def test_animated_pictures_of_a_run_are_shown_up_to_3_mb(self):
         run = small_run.scratch("animated")
+        noise = np.random.default_rng(1)
         for file in ("cc.vtkhdf", "mlo.vtkhdf", "cc.vti", "mlo.vti", "lookup.h5"):
             shutil.copy(self.run_folder / file, run)
         (run / "figures").mkdir()
-        for name, size in (("supine", 1_000_000), ("cc", 2_500_000), ("mlo", 1_000_000)):
-            (run / f"figures/{name}-states.png").write_bytes(b"p" * size)
+        for name, side in (("supine", 300), ("cc", 1500), ("mlo", 300)):
+            frames = [Image.fromarray(noise.integers(0, 256, (side, side, 3), dtype=np.uint8)) for _ in range(2)]
+            frames[0].save(run / f"figures/{name}-states.png", save_all=True, append_images=frames[1:], duration=[900, 220])
         page = views_page(run, read_views(run, None))
-        self.assertEqual(re.findall(r"<figcaption>The breast while ([^,]*)", page),
-                         ["the patient turns from prone to supine", "the plates close in MLO"])
-        self.assertEqual(page.count('src="data:image/png;base64,cHBw'), 2)
+        shown = [base64.b64decode(found) for found in re.findall(r'src="data:image/webp;base64,([^"]*)"', page)]
+        self.assertEqual(len(shown), 2)
+        self.assertLess(sum(map(len, shown)), 3e6)
+        with Image.open(io.BytesIO(shown[0])) as moving:
+            self.assertEqual((moving.n_frames, moving.size), (2, (300, 300)))
+            moving.load()
+            self.assertEqual(moving.info["duration"], 900)
+        self.assertEqual(re.findall(r"plates close in (\w+)[^<:]*: too large for this page", page), ["CC"], "what is left out is said")
         self.assertNotIn("animations", self.page.partition('<section id="pointing"')[0].partition("</style>")[2])
 
     def test_a_right_breast_is_hung_the_other_way(self):

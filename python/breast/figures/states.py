@@ -9,6 +9,7 @@ import numpy as np
 
 from ..curves import Line
 from ..state import State
+from ..text_table import number_in, read_table
 from ..views import image_frame
 from .animation import Animation
 from .body import (add_body, add_plates, compression_words, from_below, has_tumour, lateral_view, place_of, plate_view, tumour_words,
@@ -57,9 +58,18 @@ def _turned(first: State, state: State) -> float:
     return float(np.degrees(np.arccos(np.clip(first.gravity @ state.gravity / sizes, -1, 1)))) if sizes > 0 else 0.0
 
 
+def _hands(states: list[State]) -> list[str]:
+    """What a hand does at each state, by the table beside it: what it lets go slips back, which looks like a leap between two pictures."""
+    table = states[0].file.parent / "states.tsv"
+    rows = {row["file"]: row for row in read_table(table).records()} if table.exists() else {}
+    held = [any((number_in(rows.get(state.file.name, {}).get(name, "")) or 0) > 0 for name in ("hand_carries_percent", "hand_pulls_N"))
+            for state in states]
+    return [", held by a hand" if holds else ", the hand has let go" if any(held[:k]) else "" for k, holds in enumerate(held)]
+
+
 def _words(states: list[State], k: int) -> str:
     state = states[k]
-    words = compression_words(state) if state.contact else f"gravity turned by {_turned(states[0], state):.0f} degrees"
+    words = compression_words(state) + _hands(states)[k] if state.contact else f"gravity turned by {_turned(states[0], state):.0f} degrees"
     for name in ("tumour", "nipple"):
         if name == "nipple" and name in state.landmarks or name == "tumour" and has_tumour(state):
             away = np.linalg.norm(place_of(state, name, state.points) - place_of(states[0], name, states[0].points))

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..figures.mammogram import hung
-from ..figures.silhouette import contours
+from ..figures.silhouette import contours, gaussian
 from ..figures.slices import AXIAL, CORONAL, SAGITTAL
 from ..mammogram import Mammogram
 from ..state import State
@@ -28,6 +28,8 @@ _NEAR_MM = 6  # a landmark farther from a slice is not marked in it
 _BESIDE_MM = 10  # of the patient's image about the simulated outline
 _ENDS = {"CC": ("lateral", "medial"), "MLO": ("superior", "inferior"), "ML": ("superior", "inferior")}
 _GAMMA = 0.8  # as in figures/slices.py
+_QUALITY = 90
+_RASTER_MM = 0.5  # on which the border of a band is found
 
 
 @dataclass
@@ -43,7 +45,7 @@ class Picture:
         outward: whether the free margin is at the right.
         marks: (kind, x, y), kind nipple, tumour or artificial.
         line: points of each stretch of the line, "x,y x,y".
-        band: path of the band, or "".
+        band: path of the band, as far as it lies in the breast, or "".
         outlines: lines of the simulated outline in a patient's image.
         alt: what the picture shows, for those who cannot see it.
     """
@@ -77,11 +79,11 @@ def view_picture(image: Mammogram, state: State, size: tuple[float, float], line
         return np.array([left, top]) + (at if image.side == "left" else np.array([width, height]) - at)
     side = image.side[0].upper()
     upper, lower = _ENDS[image.view]
-    picture = Picture(image.view, size, (left, top, width, height), _png(hung(image)), f"{side} {image.view}", ("", "", upper, lower),
+    picture = Picture(image.view, size, (left, top, width, height), _jpeg(hung(image)), f"{side} {image.view}", ("", "", upper, lower),
                       image.side == "left", f"Simulated {image.view} mammogram of the {image.side} breast")
     _mark(picture, state, lambda name: put(image.project(state.landmark_position(name)[None])[0]))
     if line is not None:
-        _draw_line(picture, line, put)
+        _draw_line(picture, line, image, put)
     return picture
 
 
@@ -99,13 +101,13 @@ def patient_picture(image: Mammogram, state: State, patient: PatientImage, line:
     width, height = patient.pixel_mm * np.array(grey.shape[::-1])
     side = image.side[0].upper()
     upper, lower = _ENDS[image.view]
-    picture = Picture(f"patient-{image.view}", (width, height), (0.0, 0.0, width, height), _png(grey), f"{side} {image.view}",
+    picture = Picture(f"patient-{image.view}", (width, height), (0.0, 0.0, width, height), _jpeg(grey), f"{side} {image.view}",
                       ("", "", upper, lower), patient.left,
                       f"The patient's own {image.view} mammogram of the {image.side} breast, with the outline of the simulated one")
     picture.outlines = [_points(outline - corner) for outline in outlines]
     _mark(picture, state, lambda name: patient.put(image.project(state.landmark_position(name)[None]))[0] - corner)
     if line is not None:
-        _draw_line(picture, line, lambda uv: patient.put(uv) - corner)
+        _draw_line(picture, line, image, lambda uv: patient.put(uv) - corner)
     return picture
 
 
@@ -140,7 +142,7 @@ def slice_picture(scan: Volume, state: State) -> Picture:
     grey = scan.sample(places.reshape(-1, 3), 0).reshape(rows, columns)
     white = max(float(np.percentile(grey, 99.5)), 1e-30)
     picture = Picture("MR", (float(size[0]), float(size[1])), (0.0, 0.0, float(size[0]), float(size[1])),
-                      _png(np.clip(grey / white, 0, 1) ** _GAMMA), f"MR {number} of {count}", plane.words, True,
+                      _jpeg(np.clip(grey / white, 0, 1) ** _GAMMA), f"MR {number} of {count}", plane.words, True,
                       f"{plane_name.capitalize()} slice {number} of {count} of the MR scan through the {name}")
     normal = np.cross(plane.right, plane.up)
 
@@ -163,21 +165,36 @@ def _mark(picture: Picture, state: State, put: Callable[[str], np.ndarray | None
             picture.alt += f", with the {name.replace('_', ' ')} marked"
 
 
-def _draw_line(picture: Picture, line: MatchedLine, put: Callable[[np.ndarray], np.ndarray]) -> None:
+def _draw_line(picture: Picture, line: MatchedLine, image: Mammogram, put: Callable[[np.ndarray], np.ndarray]) -> None:
     picture.line = [_points(put(stretch)) for stretch in line.stretches]
     if line.to_either_side_mm > 0:
-        picture.band = " ".join(f"M{_points(put(piece))}Z" for piece in line.band())
+        picture.band = " ".join(f"M{_points(put(ring))}Z" for ring in _band(line, image))
     picture.alt += f"; a line of {line.length_mm:.0f} mm on which the tumour lies, as seen in the other view"
+
+
+def _band(line: MatchedLine, image: Mammogram) -> list[np.ndarray]:
+    """Borders (n, 2) of the band in the breast, mm: a place beside the breast is none of the finding's."""
+    depth, pitch = body_depth(image)
+    v, u = pitch * (np.indices(depth.shape).reshape(2, -1) - 1)
+    return contours(np.minimum(line.inside_band(np.stack([u, v], -1)).reshape(depth.shape), depth), 0, pitch, np.full(2, -pitch))
+
+
+def body_depth(image: Mammogram) -> tuple[np.ndarray, float]:
+    """About how far (mm) every n-th pixel lies inside the breast, negative beside it, in an image with a border of one; their distance."""
+    skip = max(1, round(_RASTER_MM / image.pixel_mm))
+    body = (image.images["thickness"] > 0) | (image.images["through_back"] != 0)
+    smooth = 4 * (gaussian(body[::skip, ::skip].astype(float), 1) - 0.5)
+    return np.pad(smooth, 1, constant_values=-1), skip * image.pixel_mm
 
 
 def _points(places: np.ndarray) -> str:
     return " ".join(f"{x:.2f},{y:.2f}" for x, y in places)
 
 
-def _png(grey: np.ndarray) -> str:
-    """Grey values from 0 to 1, (rows, columns), as a data URI."""
+def _jpeg(grey: np.ndarray) -> str:
+    """Grey values from 0 to 1, (rows, columns), as a data URI: a fifth of the bytes of a PNG, and nobody sees the difference."""
     from PIL import Image
 
     stream = io.BytesIO()
-    Image.fromarray(np.rint(255 * grey).astype(np.uint8)).save(stream, "png", optimize=True)
-    return data_uri(stream.getvalue(), "png")
+    Image.fromarray(np.rint(255 * grey).astype(np.uint8)).save(stream, "jpeg", quality=_QUALITY, optimize=True)
+    return data_uri(stream.getvalue(), "jpeg")

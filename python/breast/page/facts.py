@@ -97,13 +97,13 @@ def in_view(image: Mammogram, state: State, name: str) -> str:
     return f"{behind:.0f} mm behind the nipple, {abs(upwards):.0f} mm {words[int(upwards < 0)]}"
 
 
-def facts_of_tumour(state: State, images: list[tuple[Mammogram, State]], labels: Labels | None, scan: Grid | None) -> list[Fact]:
-    """Of the tumour: the rows of the page. `state` is any shape of the mesh; places are those of the scan."""
+def facts_of_tumour(state: State, labels: Labels | None, scan: Grid | None) -> list[Fact]:
+    """Of the tumour in the breast as scanned: rows of the page. `state` is any shape of the mesh."""
     name = state.landmark("tumour").name
     place, nipple = (state.landmark_position(landmark, "imaged") for landmark in (name, "nipple"))
     clock = clock_position(place - nipple)
     words = clock if "nipple" in clock else f"{clock}, {quadrant(place - nipple, state.side)}"
-    facts = [Fact("clock", "Clock position", words, "in the MR, facing the patient"),
+    facts = [Fact("clock", "Clock position", words, "facing the patient"),
              Fact("nipple_mm", "From the nipple", f"{np.linalg.norm(place - nipple):.0f} mm"),
              Fact("skin_mm", "From the skin", f"{state.distance_to('skin', place[None])[0]:.0f} mm")]
     walls = [wall_distance(labels, at) for at in (place, nipple)] if labels is not None else [None, None]
@@ -114,7 +114,13 @@ def facts_of_tumour(state: State, images: list[tuple[Mammogram, State]], labels:
     if scan is not None:
         number, count, plane = slice_of(scan, place)
         facts.append(Fact("slice", "MR slice", f"{plane} {number} of {count}", f"slice 1 is the {first_slice(scan)}"))
-    return facts + [Fact(f"in_{image.view}", f"In {image.view}", in_view(image, compressed, name)) for image, compressed in images]
+    return facts
+
+
+def facts_in_views(images: list[tuple[Mammogram, State]]) -> list[Fact]:
+    """Where the tumour is in the views. The plates move tissue: what is above the nipple in the scan may be lateral of it in CC."""
+    return [Fact(f"in_{image.view}", f"In {image.view}", in_view(image, compressed, "tumour"),
+                 "the plates moved it: not the direction in the uncompressed breast") for image, compressed in images]
 
 
 def facts_of_patient(images: dict[str, PatientImage]) -> list[Fact]:

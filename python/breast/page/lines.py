@@ -16,7 +16,7 @@ from ..study.table import NO_VALUE, read_table
 
 SIDES_90 = 1.644854
 """Standard deviations to either side of a normal distribution that hold 90 %."""
-_ROUND = np.radians(10)  # between the points about the outside of a corner
+_NEAR_MM = 0.5  # between the places of a line from which a band is measured
 
 
 @dataclass(frozen=True)
@@ -45,41 +45,27 @@ class MatchedLine:
     @property
     def to_either_side_mm(self) -> float:
         """Half the width of the 90 % band, which at most a tenth of the line exceeds. 0 if it is not known."""
-        first, _, length = self._pieces()
-        if not len(first):
+        length = np.linalg.norm(np.diff(self.points, axis=0), axis=1) * (np.diff(self.stretch) == 0)
+        if not length.sum() > 0:
             return 0.0
-        deviation = 0.5 * (self.deviation[first] + self.deviation[first + 1])
+        deviation = 0.5 * (self.deviation[1:] + self.deviation[:-1])
         order = np.argsort(deviation)
         reached = np.cumsum(length[order]) >= 0.9 * length.sum()
         return SIDES_90 * float(deviation[order][reached.argmax()])
 
-    def band(self) -> list[np.ndarray]:
-        """Polygons (4, 2) that together cover the 90 % band: beside each piece of the line, and round the outside of its corners, as
-        cc2mlo has its edges. All turn the same way, so that they add up."""
-        first, normals, _ = self._pieces()
-        polygons = []
-        for k, normal, before, joined in zip(first, normals, np.roll(normals, 1, 0), np.diff(first, prepend=-2) == 1):
-            polygons.append([self._edge(k, normal), self._edge(k + 1, normal), self._edge(k + 1, -normal), self._edge(k, -normal)])
-            turn = np.arctan2(before[0] * normal[1] - before[1] * normal[0], before @ normal) if joined else 0.0
-            directions = np.arctan2(before[1], before[0]) + np.linspace(0, turn, 2 + int(abs(turn) / _ROUND)) + (np.pi if turn > 0 else 0)
-            about = [self._edge(k, np.array([np.cos(a), np.sin(a)])) for a in directions]
-            polygons += [[self.points[k], one, other, other] for one, other in zip(about, about[1:])]
-        return [_turning(np.array(polygon)) for polygon in polygons]
+    def inside_band(self, places: np.ndarray) -> np.ndarray:
+        """How far places (n, 2) lie inside the 90 % band, mm; negative outside. It ends round, and so goes round corners."""
+        inside = np.full(len(places), -np.inf)
+        for k, along in enumerate(np.diff(self.points, axis=0)):
+            parts = 1 + int(np.linalg.norm(along) / _NEAR_MM)
+            for f in np.linspace(0, 1, parts + 1) if self.stretch[k] == self.stretch[k + 1] else ():
+                deviation = self.deviation[k] + f * (self.deviation[k + 1] - self.deviation[k])
+                np.maximum(inside, SIDES_90 * deviation - np.hypot(*(places - self.points[k] - f * along).T), out=inside)
+        return inside
 
     def with_more(self, deviation: float) -> MatchedLine:
         """The same line with one more, independent deviation across it, mm, where its own is known."""
         return replace(self, deviation=np.where(self.deviation > 0, np.hypot(self.deviation, deviation), 0))
-
-    def _pieces(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Between neighbours of a stretch: index of the first, unit vector across, length in mm."""
-        along, joined = np.diff(self.points, axis=0), np.diff(self.stretch) == 0
-        length = np.linalg.norm(along, axis=1)
-        first = np.flatnonzero(joined & (length > 1e-6))
-        along, length = along[first], length[first]
-        return first, np.stack([-along[:, 1], along[:, 0]], -1) / length[:, None], length
-
-    def _edge(self, k: int, normal: np.ndarray) -> np.ndarray:
-        return self.points[k] + SIDES_90 * self.deviation[k] * normal
 
     def remark(self) -> str:
         """What limits the line, in words; "" if nothing does."""
@@ -109,9 +95,3 @@ def line_at(states: tuple[State, State], place: np.ndarray) -> MatchedLine | Non
                for name, cells in zip(places.columns, zip(*places.rows))}
     u, v = (numbers[name] for name in places.columns if name.endswith(("_u_mm", "_v_mm")))
     return MatchedLine(np.stack([u, v], -1), numbers["deviation_mm"], numbers["stretch"], row.cell(0, "status"), row.number(0, "curve_mm"))
-
-
-def _turning(corners: np.ndarray) -> np.ndarray:
-    """Corners (n, 2) in the order of their directions from their middle."""
-    x, y = (corners - corners.mean(0)).T
-    return corners[np.argsort(np.arctan2(y, x))]

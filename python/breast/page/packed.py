@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the scripts of the page read: images, curves of both directions, the outline of the breast and perhaps the scan, packed.
 
-Arrays are base64 of little-endian numbers; the scripts' data.js and lookup.js unpack them.
+Arrays are little-endian numbers, deflated and as base64; the script data.js unpacks them. Of neighbours the difference is held, which takes
+half the bytes.
 """
 from __future__ import annotations
 
+import zlib
 from base64 import b64encode
 from typing import Any
 
@@ -13,11 +15,13 @@ import numpy as np
 from ..elements import FACE_CORNERS
 from ..errors import BreastError
 from ..figures.mammogram import hung
+from ..figures.silhouette import contours
 from ..grid import Grid
 from ..lookup import Lookup
 from ..mammogram import Mammogram
 from ..state import State
 from ..volume import Volume
+from .drawing import body_depth
 from .facts import slice_of
 
 LARGEST_PAGE = 25_000_000  # bytes
@@ -46,16 +50,18 @@ def packed_image(image: Mammogram, compressed: State) -> dict[str, Any]:
     grey = hung(image)
     shown = np.rint(65535 * grey[::skip, ::skip]).astype("<u2")
     rows, columns = grey.shape
+    depth, pitch = body_depth(image)
     places = [(name, image.project(compressed.landmark_position(name)[None])[0]) for name in landmarks_of(compressed)]
     return {"view": image.view, "width": shown.shape[1], "height": shown.shape[0], "pixel": image.pixel_mm * skip,
             "u_mm": image.pixel_mm * (columns - 1), "v_mm": image.pixel_mm * (rows - 1),
-            "landmarks": [{"name": name, "at": at.tolist()} for name, at in places], "grey": _array(shown)}
+            "landmarks": [{"name": name, "at": at.tolist()} for name, at in places], "grey": _array(shown, 1),
+            "outline": [ring.round(1).tolist() for ring in contours(depth, 0, pitch, np.full(2, -pitch))]}
 
 
 def packed_lookup(lookup: Lookup, middle: np.ndarray) -> dict[str, Any]:
     """The curves of a grid, only for nodes in tissue; coordinates reach at most 327 mm from `middle` (columns) or the image's corner.
 
-    A grid with more than 14 000 nodes in tissue is thinned, so that a direction takes at most 7 MB.
+    A grid with more than 14 000 nodes in tissue is thinned, so that a direction takes at most 3 MB.
     """
     stride = 1
     while np.count_nonzero(lookup.status[::stride, ::stride]) > _MOST_NODES:
@@ -63,9 +69,9 @@ def packed_lookup(lookup: Lookup, middle: np.ndarray) -> dict[str, Any]:
     status = lookup.status[::stride, ::stride]
     tissue = status != 0
 
-    def packed(values: np.ndarray, kind: str) -> str:
+    def packed(values: np.ndarray, kind: str) -> dict[str, Any]:
         bounds = np.iinfo(kind)
-        return _array(np.clip(np.rint(values / _UNIT), bounds.min, bounds.max).astype(kind))
+        return _array(np.clip(np.rint(values / _UNIT), bounds.min, bounds.max).astype(kind), values[0].size if len(values) else 1)
 
     def kept(values: np.ndarray) -> np.ndarray:
         return values[::stride, ::stride][tissue].astype(float)
@@ -77,7 +83,7 @@ def packed_lookup(lookup: Lookup, middle: np.ndarray) -> dict[str, Any]:
 
 def packed_body(state: State) -> dict[str, Any]:
     """Edges of skin, chest wall and cut in the frame of the scan, mm, with nipple and tumour."""
-    def edges(faces: np.ndarray) -> str:
+    def edges(faces: np.ndarray) -> dict[str, Any]:
         corners = state.hexahedra[faces[:, 0, None], FACE_CORNERS[faces[:, 1]]]
         ends = np.stack([corners, np.roll(corners, -1, 1)], -1).reshape(-1, 2)
         return _array(state.imaged[np.unique(np.sort(ends, 1), axis=0)].astype("<f4"))
@@ -107,7 +113,7 @@ def packed_scan(scan: Volume, state: State) -> dict[str, Any]:
     grey = np.nan_to_num(np.rint(255 * np.clip((values - dark) / max(bright - dark, 1e-30), 0, 1)))
     _, count, plane = slice_of(scan.grid, 0.5 * (low + high))
     offset, *steps = scan.grid.to_index(np.vstack([np.zeros(3), np.eye(3)]))[:, 2]
-    return {"size": list(grid.size), "spacing": grid.spacing.tolist(), "origin": grid.origin.tolist(), "grey": _array(grey.astype("u1")),
+    return {"size": list(grid.size), "spacing": grid.spacing.tolist(), "origin": grid.origin.tolist(), "grey": _array(grey.astype("u1"), 1),
             "slices": {"plane": plane, "count": count, "row": [*(float(step - offset) for step in steps), float(offset)]}}
 
 
@@ -125,5 +131,10 @@ def _grid_about(low: np.ndarray, high: np.ndarray, scan: Grid) -> Grid:
         coarser *= 1.1
 
 
-def _array(values: np.ndarray) -> str:
-    return b64encode(np.ascontiguousarray(values).tobytes()).decode()
+def _array(values: np.ndarray, step: int = 0) -> dict[str, Any]:
+    """step: how many numbers before each the like of it stands; 0 where there is none."""
+    numbers = np.ascontiguousarray(values).ravel()
+    kind = numbers.dtype.newbyteorder("<").str[1:]
+    if step:
+        numbers = np.concatenate([numbers[:step], numbers[step:] - numbers[:-step]])
+    return {"packed": b64encode(zlib.compress(numbers.tobytes(), 9)).decode(), "kind": kind, "step": step}

@@ -32,9 +32,10 @@ _TUMOUR_WORDS = {"none": "", "given": "the tumour of the MR, where the model has
                  "artificial": "an artificial tumour, put there by the program: not a finding"}
 
 _ANIMATIONS = {"supine": "The breast while the patient turns from prone to supine, equilibrium by equilibrium",
-               "cc": "The breast while the plates close in CC, equilibrium by equilibrium",
-               "mlo": "The breast while the plates close in MLO, equilibrium by equilibrium"}
+               "cc": "The breast while the plates close in CC, equilibrium by equilibrium; when the hand lets go, it slips back",
+               "mlo": "The breast while the plates close in MLO, equilibrium by equilibrium; when the hand lets go, it slips back"}
 _LARGEST_ANIMATIONS = 3_000_000  # bytes
+_QUALITY = 80  # of animated pictures
 _NOT_COUNTED = {"tumour": "how stiff the tumour is", "sternum": "how firmly the breast is held at the sternum",
                 "chest_wall": "where exactly the chest wall lies", "angle": "the true angle of the view",
                 "detector": "the height of the plates"}
@@ -132,12 +133,14 @@ def views_page(run: Path, views: Views) -> str:
 
 def _tables(run: Path, views: Views) -> list[tuple[str, list[Fact]]]:
     """What is said in numbers: captions and rows."""
-    from .facts import fact_of_views, facts_of_breast, facts_of_patient, facts_of_tumour
+    from .facts import fact_of_views, facts_in_views, facts_of_breast, facts_of_patient, facts_of_tumour
 
     grid = views.scan.grid if views.scan is not None else None
-    tumour = facts_of_tumour(views.body, views.pairs, views.labels, grid) if views.origin != "none" else []
+    tumour = facts_of_tumour(views.body, views.labels, grid) if views.origin != "none" else []
+    moved = facts_in_views(views.pairs) if views.origin != "none" else []
+    name = "The tumour" if views.origin == "given" else "The artificial tumour"
     compressions = [StageReport.read(state.file.with_suffix(".json")) for _, state in views.pairs]
-    return [("The tumour" if views.origin == "given" else "The artificial tumour", tumour),
+    return [(f"{name} as scanned, before compression", tumour), (f"{name} in the simulated mammograms", moved),
             ("The breast", [*facts_of_breast(StageReport.read(run / "labels.json"), compressions), *fact_of_views(run)]),
             ("The patient's mammograms", facts_of_patient(views.patients))]
 
@@ -192,14 +195,30 @@ def _behind(views: Views) -> list[str]:
 
 
 def _animations(run: Path) -> list[tuple[str, str]]:
-    """The animated pictures of `make states` that the run has: what each shows, and its data URI; at most 3 MB of them."""
+    """The animated pictures of `make states` that the run has: what each shows, and its data URI; at most 3 MB of them. What would be
+    too much has no URI."""
     found, size = [], 0
     for name, words in _ANIMATIONS.items():
         file = run / f"figures/{name}-states.png"
-        if exists(file) and size + file.stat().st_size <= _LARGEST_ANIMATIONS:
-            size += file.stat().st_size
-            found.append((words, data_uri(file.read_bytes(), "png")))
+        if exists(file):
+            moving = _as_webp(file)
+            fits = size + len(moving) <= _LARGEST_ANIMATIONS
+            size += len(moving) if fits else 0
+            found.append((words, data_uri(moving, "webp") if fits else ""))
     return found
+
+
+def _as_webp(file: Path) -> bytes:
+    """The pictures and times of an animated PNG in a fraction of its bytes."""
+    import io
+
+    from PIL import Image, ImageSequence
+
+    stream = io.BytesIO()
+    with Image.open(file) as moving:
+        times, frames = zip(*((frame.info.get("duration", 0), frame.convert("RGB")) for frame in ImageSequence.Iterator(moving)))
+    frames[0].save(stream, "webp", save_all=True, append_images=frames[1:], duration=[int(ms) for ms in times], loop=0, quality=_QUALITY)
+    return stream.getvalue()
 
 
 def _answer_title(views: Views) -> str:

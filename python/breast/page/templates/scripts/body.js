@@ -2,7 +2,7 @@
 const body = (() => {
   const canvas = document.getElementById('body'), picture = document.createElement('canvas');
   const parts = [['cut', 'rgba(120,130,140,0.20)'], ['wall', 'rgba(201,138,91,0.42)'], ['skin', 'rgba(150,190,225,0.20)']]
-      .map(([name, colour]) => ({edges: array(Float32Array, data.body[name]), colour}));
+      .map(([name, colour]) => ({edges: data.body[name], colour}));
   const middle = data.body.middle;
   let radius = 1;  // of a ball about the middle that holds the breast however it is turned
   for (const {edges} of parts) for (let i = 0; i < edges.length; i += 3) {

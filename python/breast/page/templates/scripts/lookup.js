@@ -1,13 +1,7 @@
 // The curve of any point of one image in the other, between the nodes of a grid. Lengths are packed in 0.01 mm.
 class Lookup {
   constructor(packed) {
-    Object.assign(this, {pitch: packed.pitch, nu: packed.nu, nv: packed.nv, samples: packed.samples});
-    this.status = bytes(packed.status);
-    this.depth = array(Uint16Array, packed.depth);
-    this.curve = array(Int16Array, packed.curve);
-    this.length = array(Uint16Array, packed.length);
-    this.deviation = array(Uint16Array, packed.deviation);
-    this.imaged = array(Int16Array, packed.imaged);
+    Object.assign(this, packed);
     // Nodes in air have no place in the arrays: place[node] counts those in tissue before it.
     this.place = new Uint32Array(this.status.length);
     for (let node = 0, count = 0; node < this.status.length; ++node) {

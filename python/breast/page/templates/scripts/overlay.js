@@ -6,35 +6,29 @@ function trace(view, points) {
     i ? view.pen.lineTo(x, y) : view.pen.moveTo(x, y);
   });
 }
-// Unit vector across the piece of a line between its samples i and i + 1.
-function acrossPiece(match, i) {
-  const [x, y] = [0, 1].map(c => match.curve[i + 1][c] - match.curve[i][c]), length = Math.hypot(x, y);
-  return length > 1e-6 ? [-y / length, x / length] : [1, 0];
-}
-// As MatchedLine.band of page/lines.py: beside each piece of the line, and round the outside of its corners.
+// As MatchedLine.inside_band of page/lines.py: all places near enough to the line, as far as they lie in the breast.
 function drawBand(view, match, factor, alpha) {
-  const edge = (k, normal) => view.toScreen(...[0, 1].map(c => match.curve[k][c] + factor * match.deviation[k] * normal[c]));
-  view.pen.beginPath();
-  // Pieces that all turn the same way add up, also where the line bends sharply.
-  const add = piece => {
-    const [x, y] = [0, 1].map(c => piece.reduce((sum, p) => sum + p[c] / piece.length, 0));
-    const direction = p => Math.atan2(p[1] - y, p[0] - x);
-    piece.sort((p, q) => direction(p) - direction(q)).forEach((p, i) => i ? view.pen.lineTo(...p) : view.pen.moveTo(...p));
-    view.pen.closePath();
-  };
-  for (let k = 0; k + 1 < match.curve.length; ++k) {
-    const normal = acrossPiece(match, k), other = normal.map(c => -c);
-    add([edge(k, normal), edge(k + 1, normal), edge(k + 1, other), edge(k, other)]);
-    if (!k) continue;
-    const before = acrossPiece(match, k - 1);
-    const turn = Math.atan2(before[0] * normal[1] - before[1] * normal[0], before[0] * normal[0] + before[1] * normal[1]);
-    const steps = 1 + Math.floor(Math.abs(turn) * 18 / Math.PI), start = Math.atan2(before[1], before[0]) + (turn > 0 ? Math.PI : 0);
-    const about = Array.from({length: steps + 1}, (_, i) => start + turn * i / steps).map(a => edge(k, [Math.cos(a), Math.sin(a)]));
-    for (let i = 1; i < about.length; ++i) add([view.toScreen(...match.curve[k]), about[i - 1], about[i]]);
-  }
-  view.pen.globalAlpha = alpha;
-  view.pen.fill();
-  view.pen.globalAlpha = 1;
+  const pen = view.pen, places = match.curve.map(p => view.toScreen(...p)), radii = match.deviation.map(mm => factor * mm * view.scale);
+  pen.save();
+  pen.beginPath();
+  for (const ring of view.image.outline) ring.forEach((p, i) => i ? pen.lineTo(...view.toScreen(...p)) : pen.moveTo(...view.toScreen(...p)));
+  pen.clip('evenodd');
+  // Circles, and the quadrilaterals between them, all turn the same way, so that they add up.
+  pen.beginPath();
+  places.forEach(([x, y], i) => {
+    pen.moveTo(x + radii[i], y);
+    pen.arc(x, y, radii[i], 0, 2 * Math.PI);
+    if (!i) return;
+    const [u, v] = places[i - 1], length = Math.hypot(x - u, y - v);
+    if (!(length > 0)) return;
+    const [a, b] = [(v - y) / length, (x - u) / length], before = radii[i - 1], r = radii[i];
+    pen.moveTo(u - a * before, v - b * before); pen.lineTo(x - a * r, y - b * r);
+    pen.lineTo(x + a * r, y + b * r); pen.lineTo(u + a * before, v + b * before);
+    pen.closePath();
+  });
+  pen.globalAlpha = alpha;
+  pen.fill();
+  pen.restore();
 }
 // A line that shows on bright and on dark tissue.
 function stroke(pen, width) {

@@ -8,7 +8,7 @@ const slice = (() => {
     document.getElementById('aside').className = 'alone';
     return {draw() {}, follow() {}, step() {}, changeWindow() {}, reset() {}, canvas, at: null};
   }
-  const grey = bytes(scan.grey), [nx, ny, nz] = scan.size, [dx, dy, dz] = scan.spacing, [x0, y0, z0] = scan.origin;
+  const grey = scan.grey, [nx, ny, nz] = scan.size, [dx, dy, dz] = scan.spacing, [x0, y0, z0] = scan.origin;
   const picture = document.createElement('canvas');
   Object.assign(picture, {width: nx, height: ny});
   const centre = data.body.landmarks.find(mark => mark.name !== 'nipple') || data.body.landmarks[0];

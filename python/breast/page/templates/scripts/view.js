@@ -6,7 +6,7 @@ class View {
     this.k = k;
     this.image = data.images[k];
     this.canvas = document.getElementById('view-' + k);
-    this.grey = array(Uint16Array, this.image.grey);
+    this.grey = this.image.grey;
     this.width = this.image.width * this.image.pixel;
     this.height = this.image.height * this.image.pixel;
     this.picture = document.createElement('canvas');
