@@ -2,6 +2,7 @@
 """Shapes the figures draw, against shapes with formulas and what the programs compute: contours, silhouettes, the gland's surface,
 slices of a scan, the border of the image, the grey of a mammogram."""
 import dataclasses
+import types
 import unittest
 from pathlib import Path
 
@@ -21,6 +22,7 @@ try:
     from breast.figures.outlines import joined
     from breast.figures.silhouette import contours, gaussian, silhouette
     from breast.figures.slices import AXIAL, CORONAL, SAGITTAL, Slices
+    from breast.figures.states import _hands
     from breast.views import image_frame
 except ImportError as error:
     raise unittest.SkipTest(f"figures need python3-matplotlib and python3-vtk9 ({error})") from None
@@ -80,6 +82,17 @@ class Lines(unittest.TestCase):
         self.assertAlmostEqual(outside, 20 + 10 + 20 + 30)
         np.testing.assert_allclose([parts[0][-1], parts[1][0], parts[1][-1]], [[80, 50], [80, 60], [60, 0]])
         self.assertEqual(parts_inside(np.array([[-5, 3], [-5, 90.0]]), size), ([], 87))
+
+
+class States(unittest.TestCase):
+    def test_a_hand_that_lets_go_is_said(self):
+        """As it lets go the breast slips back by centimetres, which without a word looks like an error."""
+        folder = small_run.scratch("hand")
+        states = [types.SimpleNamespace(file=folder / f"state_00{k}.vtkhdf") for k in (1, 2, 3)]
+        self.assertEqual(_hands(states), ["", "", ""], "a folder without a table, or gravity that turns")
+        rows = [f"state_00{k}.vtkhdf\t{carries}\t{pulls}\n" for k, carries, pulls in ((1, 100, 20), (2, 0, 3.5), (3, 0, 0))]
+        (folder / "states.tsv").write_text("file\thand_carries_percent\thand_pulls_N\n" + "".join(rows))
+        self.assertEqual(_hands(states), [", held by a hand", ", held by a hand", ", the hand has let go"])
 
 
 class OfARun(unittest.TestCase):

@@ -119,8 +119,7 @@ def facts_of_tumour(state: State, labels: Labels | None, scan: Grid | None) -> l
 
 def facts_in_views(images: list[tuple[Mammogram, State]]) -> list[Fact]:
     """Where the tumour is in the views. The plates move tissue: what is above the nipple in the scan may be lateral of it in CC."""
-    return [Fact(f"in_{image.view}", f"In {image.view}", in_view(image, compressed, "tumour"),
-                 "the plates moved it: not the direction in the uncompressed breast") for image, compressed in images]
+    return [Fact(f"in_{image.view}", f"In {image.view}", in_view(image, compressed, "tumour")) for image, compressed in images]
 
 
 def facts_of_patient(images: dict[str, PatientImage]) -> list[Fact]:

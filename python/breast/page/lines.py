@@ -16,6 +16,8 @@ from ..study.table import NO_VALUE, read_table
 
 SIDES_90 = 1.644854
 """Standard deviations to either side of a normal distribution that hold 90 %."""
+_HOOK_MM = 6  # within which a hook turns back
+_END_MM = 30  # from the end of a line to its hook
 _NEAR_MM = 0.5  # between the places of a line from which a band is measured
 
 
@@ -68,9 +70,20 @@ class MatchedLine:
         return replace(self, deviation=np.where(self.deviation > 0, np.hypot(self.deviation, deviation), 0))
 
     def remark(self) -> str:
-        """What limits the line, in words; "" if nothing does."""
-        return {"through_chest_wall": "The line ends where its tissue meets the chest wall.",
-                "behind_image": "Part of the line lies behind the back edge of the image."}.get(self.status, "")
+        """What limits the line or looks odd in it, in words; "" if nothing does."""
+        limit = {"through_chest_wall": "The line ends where its tissue meets the chest wall. ",
+                 "behind_image": "Part of the line lies behind the back edge of the image. "}.get(self.status, "")
+        return (limit + ("Its hook is tissue near the skin, which a plate has dragged along." if self._turns_back() else "")).strip()
+
+    def _turns_back(self) -> bool:
+        """Whether the line goes the opposite way within a few mm, not far from its ends, which lie in the skin."""
+        along = np.diff(self.points, axis=0)
+        length = np.linalg.norm(along, axis=1)
+        place, used = np.cumsum(length) - 0.5 * length, (length > 1e-6) & (np.diff(self.stretch) == 0)
+        place, stretch, along = place[used], self.stretch[:-1][used], along[used] / length[used, None]
+        near = (np.abs(place[:, None] - place) < _HOOK_MM) & (stretch[:, None] == stretch)
+        near &= np.minimum(place, length.sum() - place)[:, None] < _END_MM
+        return bool((near & (along @ along.T < 0)).any())
 
 
 def line_at(states: tuple[State, State], place: np.ndarray) -> MatchedLine | None:
