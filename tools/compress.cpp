@@ -35,8 +35,8 @@ void declare(Tool& tool, Choices& c) {
       "that they just touch it, and closes them to a thickness, a reduction, a force, a mean "
       "pressure or a contact area; if several are given, the first one that is reached ends the "
       "compression. If none is given, the plates close as in screening, to a force of 110 N or to 35 "
-      "mm, whichever comes first; a breast with a projection of less than 28 cm2 is given 4 N per "
-      "cm2 of it, but at least 50 N.");
+      "mm, whichever comes first; a breast that covers less than 28 cm2 of the image is given 4 N "
+      "for each of these cm2, but at least 50 N.");
   tool.describe(
       "With --image-edge, which is the default for a breast that slides on its chest "
       "wall, the plates are placed as in the clinic: their edge is close to the chest wall and "
@@ -120,14 +120,14 @@ void declare(Tool& tool, Choices& c) {
               0, 500);
   tool.text(
       c.image_edge, "--image-edge", "auto|MM",
-      "place the plates as in the clinic: distance of the image's edge, where their rounded edge "
-      "starts, in front of the chest wall behind the breast (its most anterior point), or of the "
-      "muscle on it. auto is the default for a breast that slides on its chest wall; otherwise, or if "
-      "--standoff is given, --standoff places the plates. auto, for CC: 5; if the rounded edges then "
-      "carry 40 % of a plate's force, 7.5, and then 10. auto, for MLO and ML: 0, or with a layer of "
-      "muscle, 1.25 times its thickness behind its front. With this option, the defaults of --turn, "
-      "--lean, --bend, --edge-radius, --contact-points, --friction, --positioning and --pull are those "
-      "of the clinic, too");
+      "place the plates as in the clinic: the image ends, and their rounded edge starts, MM in "
+      "front of the chest wall, that is of its most anterior point behind the breast, or of the"
+      " muscle there. In CC, auto is 5, or 7.5 and then 10 where the rounded edges would carry "
+      "40 % of a plate's force; in MLO and ML it is 0, or with a layer of muscle 1.25 times its"
+      " thickness behind its front. --turn, --lean, --bend, --edge-radius, --contact-points, "
+      "--friction, --positioning and --pull then have the defaults of the clinic, too (default:"
+      " auto for a breast that slides on its chest wall, unless --standoff is given; otherwise "
+      "--standoff places the plates)");
   tool.text(
       c.turn, "--turn", "auto|DEG",
       "turn the plates' edge by this angle towards the breast's side, about the patient's long "

@@ -9,7 +9,7 @@ from .installation import Installation
 COMMANDS = {
     "run": "from a breast MR scan to the page of both mammographic views (the whole chain)",
     "demo": "the same on a simulated breast whose true shapes are known",
-    "page": "only that page, on which a point of one view becomes a line in the other; of a scan or of the simulated breast",
+    "page": "that page alone, without the table and the pictures; of a scan or of the simulated breast",
     "cohort": "the whole chain on every patient (case file) of a folder",
     "list": "list the tools, one per line",
     "help": "help on a command, a tool or a setting; `help settings` lists what SETTING=value may be",
@@ -32,7 +32,7 @@ def overview(installation: Installation) -> str:
     """The output of `breast help`."""
     return (f"breast - {SUMMARY}\n\nUsage: breast COMMAND|TOOL [ARGUMENT]...\n\nCommands:\n{_aligned(COMMANDS, '  ')}"
             "\n`run` chains these tools: segment, fit-hermite, hexmesh, backward, forward, compress (CC, MLO), project-mammogram, cc2mlo,\n"
-            "match-lookup, tabulate.\n"
+            "sensitivity (for the bands), match-lookup, tabulate (the page).\n"
             f"\nTools:\n{_aligned(installation.tools, '  ')}"
             "\nExamples:\n  breast demo\n  breast run scan.nrrd\n  breast help compress\n"
             f"\nDocumentation: {installation.documentation}; manual pages: man breast, man breast-compress\n")

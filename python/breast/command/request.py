@@ -49,7 +49,7 @@ def _options(d: Declaration, jobs: int, jobs_help: str) -> None:
 def _case_options(d: Declaration, target: str) -> None:
     # Of one case, two stages can run side by side most of the time, such as the compressions in both views.
     _options(d, 2, "number of stages that may run at the same time; they share the cores")
-    d.text("--target", "NAME", "what to make: chain, figures, summary, page, report or another target of the pipeline (breast help "
+    d.text("--target", "NAME", "what to make: chain, figures, summary, page, states, report or another target of the pipeline (breast help "
            "settings); several are separated by blanks", target)
 
 
