@@ -26,8 +26,9 @@ struct Mammogram {
   std::vector<float> thickness;  ///< mm of tissue along each ray
   std::vector<float> fibroglandular;  ///< mm of fibroglandular tissue along each ray
   /// 1 if the column leaves the mesh through the chest wall or the cut. Where the image ends at the
-  /// plates' edge, the column is continued with fat to the thickness of the tissue in front of it, at
-  /// most to the distance of the plates; otherwise the other arrays are 0.
+  /// plates' edge, the column is continued with fat, and from where muscle fills most of it with
+  /// muscle, to the thickness of the tissue in front of it, at most to the distance of the plates, and
+  /// so are those that miss the mesh behind it; otherwise the other arrays are 0.
   std::vector<std::uint8_t> through_back;
   /// Whether a pixel has no value.
   bool blank(std::size_t pixel) const {

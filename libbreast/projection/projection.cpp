@@ -68,23 +68,32 @@ class Projector {
       for (int k = 0; k < rays; ++k, ++u)
         pixel(u, v, chords[k], image, behind[std::size_t(u)], sums);
     }
-    if (filled_ > 0) continue_backwards(v, behind, image);
+    if (filled_ > 0) continue_backwards(v, behind, image, sums);
     return sums;
   }
 
  private:
-  // Columns that leave through the back lack the tissue behind the mesh. They are continued with fat to the thickness of the
-  // tissue in front of them in the same row, so that skin and brightness continue, too; at most to the distance of the plates.
-  void continue_backwards(int v, const std::vector<TissuePath>& behind, Mammogram& image) const {
+  // Columns that leave through the back lack the tissue behind the mesh, and those behind them may miss the mesh. They are continued to
+  // the thickness of the tissue in front of them in the same row, so that skin and brightness continue, too; at most to the distance
+  // of the plates. They are continued with fat, and behind a column that is mostly muscle with muscle: the mesh has but a layer of it.
+  void continue_backwards(int v, std::vector<TissuePath>& behind, Mammogram& image,
+                          RowSums& sums) const {
     double front = 0;
+    bool back = false, muscle = false;
     for (int u = image.width - 1; u >= 0; --u) {
       const std::size_t at = std::size_t(v) * image.width + u;
+      TissuePath& mm = behind[std::size_t(u)];
+      if (back && !(image.thickness[at] > 0) && image.through_back[at] == 0) {
+        image.through_back[at] = 1;
+        ++sums.back;
+      }
       if (image.through_back[at] == 0) {
         front = image.thickness[at];
         continue;
       }
-      TissuePath mm = behind[std::size_t(u)];
-      mm.fat += std::max(0.0, std::min(filled_, front) - mm.total());
+      back = true;
+      muscle = muscle || mm.muscle > 0.5 * std::min(filled_, front);
+      (muscle ? mm.muscle : mm.fat) += std::max(0.0, std::min(filled_, front) - mm.total());
       record(at, mm, image);
     }
   }
