@@ -140,7 +140,7 @@ def _tables(run: Path, views: Views) -> list[tuple[str, list[Fact]]]:
     moved = facts_in_views(views.pairs) if views.origin != "none" else []
     name = "The tumour" if views.origin == "given" else "The artificial tumour"
     compressions = [StageReport.read(state.file.with_suffix(".json")) for _, state in views.pairs]
-    return [(f"{name} in the scan, not compressed", tumour), (f"{name} in the simulated mammograms, moved by the plates", moved),
+    return [(f"{name} in the MR (not compressed)", tumour), (f"{name} in the simulated views (moved by the plates)", moved),
             ("The breast", [*facts_of_breast(StageReport.read(run / "labels.json"), compressions), *fact_of_views(run)]),
             ("The patient's mammograms", facts_of_patient(views.patients))]
 
@@ -190,7 +190,8 @@ def _behind(views: Views) -> list[str]:
     """How the images show what lies behind the model, if they do."""
     behind = [image.images["thickness"][image.images["through_back"] != 0] for image, _ in views.pairs]
     words = (("Even grey at the back of a mammogram: behind the model, where nothing is known.", any((mm <= 0).any() for mm in behind)),
-             ("At the back of a mammogram, what lies behind the model is drawn as fat, and behind muscle as muscle.", any((mm > 0).any() for mm in behind)))
+             ("At the back of a mammogram, what lies behind the model is drawn as fat, and behind muscle as muscle.",
+              any((mm > 0).any() for mm in behind)))
     return [said for said, shown in words if shown]
 
 
@@ -250,7 +251,8 @@ def _answer(views: Views, lines: list[MatchedLine | None]) -> list[str]:
     without = _not_counted(views)
     if without and any(line and line.to_either_side_mm > 0 for line in lines):
         said.append(f"Not counted in the 90 %: {without}.")
-    return [*said, "The rings in both views mark its place in the MR, moved as the model says. A single mammogram does not show depth, hence the line."]
+    return [*said, "The rings in both views mark its place in the MR, moved as the model says. A single mammogram does not show depth, hence the "
+            "line."]
 
 
 def _not_counted(views: Views) -> str:
