@@ -17,7 +17,7 @@ from ..study.table import NO_VALUE, read_table
 SIDES_90 = 1.644854
 """Standard deviations to either side of a normal distribution that hold 90 %."""
 _HOOK_MM = 6  # within which a hook turns back
-_END_MM = 30  # from the end of a line to its hook
+_SEEN_MM, _END_MM = 5, 30  # of a line behind a hook that is seen, and that may still lie near the skin
 _NEAR_MM = 0.5  # between the places of a line from which a band is measured
 
 
@@ -82,8 +82,9 @@ class MatchedLine:
         place, used = np.cumsum(length) - 0.5 * length, (length > 1e-6) & (np.diff(self.stretch) == 0)
         place, stretch, along = place[used], self.stretch[:-1][used], along[used] / length[used, None]
         near = (np.abs(place[:, None] - place) < _HOOK_MM) & (stretch[:, None] == stretch)
-        near &= np.minimum(place, length.sum() - place)[:, None] < _END_MM
-        return bool((near & (along @ along.T < 0)).any())
+        to_end = np.minimum(place, length.sum() - place)
+        hook = (to_end > _SEEN_MM) & (to_end < _END_MM)
+        return bool((near & hook & hook[:, None] & (along @ along.T < 0)).any())
 
 
 def line_at(states: tuple[State, State], place: np.ndarray) -> MatchedLine | None:
