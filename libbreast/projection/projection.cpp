@@ -83,7 +83,7 @@ class Projector {
     for (int u = image.width - 1; u >= 0; --u) {
       const std::size_t at = std::size_t(v) * image.width + u;
       TissuePath& mm = behind[std::size_t(u)];
-      if (back && !(image.thickness[at] > 0) && image.through_back[at] == 0) {
+      if (back && front > 0 && !(image.thickness[at] > 0) && image.through_back[at] == 0) {
         image.through_back[at] = 1;
         ++sums.back;
       }

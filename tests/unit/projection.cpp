@@ -323,6 +323,7 @@ TEST(Projection, ColumnsThatMissTheMeshBehindTheBodyAreFilled) {
   }
   EXPECT_GT(filled, 100);
   EXPECT_EQ(air, 0);
+  for (std::size_t i = 0; i < image.path.size(); ++i) EXPECT_FALSE(image.blank(i));
 }
 
 TEST(Projection, TheFrameDoesNotDependOnTheTumour) {
