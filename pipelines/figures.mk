@@ -35,10 +35,10 @@ $(F)/%-states.png: $(RUN)/states/%.vtkhdf $(CURVE) $(RENDER)
 .SECONDARY: $(of_states)
 # The page shows them, but is not made again for them whenever a program is newer (results.mk).
 states: $(call pictures,supine-states cc-states mlo-states) $(RUN)/page.html
+	$(gripped)
 ifneq ($(filter states,$(goals)),)
 $(RUN)/page.html: $(call pictures,supine-states cc-states mlo-states)
 endif
-	$(gripped)
 .PHONY: states
 
 fig4: $(call files_of,points.vtp geometry.vtkhdf mesh.vtkhdf labels.vtkhdf)

@@ -3,7 +3,6 @@
 import base64
 import dataclasses
 import html
-import io
 import json
 import re
 import shutil
@@ -23,7 +22,6 @@ from breast.state import TISSUES, Landmark
 
 try:
     import jinja2  # noqa: F401
-    from PIL import Image
     from breast.page import drawing, facts, packed
     from breast.page.lines import SIDES_90, MatchedLine, line_at
     from breast.page.patient import read_patient
@@ -416,21 +414,13 @@ class WhatIsSaid(unittest.TestCase):
 
     def test_animated_pictures_of_a_run_are_shown_up_to_3_mb(self):
         run = small_run.scratch("animated")
-        noise = np.random.default_rng(1)
         for file in ("cc.vtkhdf", "mlo.vtkhdf", "cc.vti", "mlo.vti", "lookup.h5"):
             shutil.copy(self.run_folder / file, run)
         (run / "figures").mkdir()
-        for name, side in (("supine", 300), ("cc", 1500), ("mlo", 300)):
-            frames = [Image.fromarray(noise.integers(0, 256, (side, side, 3), dtype=np.uint8)) for _ in range(2)]
-            frames[0].save(run / f"figures/{name}-states.png", save_all=True, append_images=frames[1:], duration=[900, 220])
+        for name, size in (("supine", 1_000_000), ("cc", 2_500_000), ("mlo", 1_000_000)):
+            (run / f"figures/{name}-states.png").write_bytes(b"p" * size)
         page = views_page(run, read_views(run, None))
-        shown = [base64.b64decode(found) for found in re.findall(r'src="data:image/webp;base64,([^"]*)"', page)]
-        self.assertEqual(len(shown), 2)
-        self.assertLess(sum(map(len, shown)), 3e6)
-        with Image.open(io.BytesIO(shown[0])) as moving:
-            self.assertEqual((moving.n_frames, moving.size), (2, (300, 300)))
-            moving.load()
-            self.assertEqual(moving.info["duration"], 900)
+        self.assertEqual(page.count('src="data:image/png;base64,cHBw'), 2)
         self.assertEqual(re.findall(r"plates close in (\w+)[^<:]*: too large for this page", page), ["CC"], "what is left out is said")
         self.assertNotIn("animations", self.page.partition('<section id="pointing"')[0].partition("</style>")[2])
 

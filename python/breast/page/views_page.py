@@ -35,7 +35,6 @@ _ANIMATIONS = {"supine": "The breast while the patient turns from prone to supin
                "cc": "The breast while the plates close in CC, equilibrium by equilibrium; when the hand lets go, it slips back",
                "mlo": "The breast while the plates close in MLO, equilibrium by equilibrium; when the hand lets go, it slips back"}
 _LARGEST_ANIMATIONS = 3_000_000  # bytes
-_QUALITY = 80  # of animated pictures
 _NOT_COUNTED = {"tumour": "how stiff the tumour is", "sternum": "how firmly the breast is held at the sternum",
                 "chest_wall": "where exactly the chest wall lies", "angle": "the true angle of the view",
                 "detector": "the height of the plates"}
@@ -202,24 +201,10 @@ def _animations(run: Path) -> list[tuple[str, str]]:
     for name, words in _ANIMATIONS.items():
         file = run / f"figures/{name}-states.png"
         if exists(file):
-            moving = _as_webp(file)
-            fits = size + len(moving) <= _LARGEST_ANIMATIONS
-            size += len(moving) if fits else 0
-            found.append((words, data_uri(moving, "webp") if fits else ""))
+            fits = size + file.stat().st_size <= _LARGEST_ANIMATIONS
+            size += file.stat().st_size if fits else 0
+            found.append((words, data_uri(file.read_bytes(), "png") if fits else ""))
     return found
-
-
-def _as_webp(file: Path) -> bytes:
-    """The pictures and times of an animated PNG in a fraction of its bytes."""
-    import io
-
-    from PIL import Image, ImageSequence
-
-    stream = io.BytesIO()
-    with Image.open(file) as moving:
-        times, frames = zip(*((frame.info.get("duration", 0), frame.convert("RGB")) for frame in ImageSequence.Iterator(moving)))
-    frames[0].save(stream, "webp", save_all=True, append_images=frames[1:], duration=[int(ms) for ms in times], loop=0, quality=_QUALITY)
-    return stream.getvalue()
 
 
 def _answer_title(views: Views) -> str:
