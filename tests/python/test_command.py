@@ -160,6 +160,16 @@ class Requests(unittest.TestCase):
 class Assumed(StandingInFolder):
     """What is found beside a scan."""
 
+    def test_the_page_of_what_failed_is_named_if_it_is_of_this_run(self):
+        """Plates that do not hold the breast end with a page that says so; a segmentation that fails leaves that of an earlier run."""
+        self.assertEqual(scan_run._page_of_failure("."), "")
+        for name, time in (("labels.json", 10), ("page.html", 20)):
+            touch(name)
+            os.utime(name, (time, time))
+        self.assertEqual(scan_run._page_of_failure("."), "; page.html says why")
+        os.utime("labels.json", (30, 30))
+        self.assertEqual(scan_run._page_of_failure("."), "")
+
     def test_the_tumour_is_found_by_the_name_of_the_scan(self):
         for name in ("a.nrrd", "a-tumour-x.nrrd", "ab-tumour.nrrd", "tumour.nrrd", "a.nrrd-tumour.nrrd"):
             touch(name)

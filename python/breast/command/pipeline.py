@@ -80,8 +80,8 @@ def make_run(words: Sequence[str], run: str) -> int:
     code = run_child(words)
     if code == 0:
         return 0
-    sys.stderr.write(f"breast: stopped; what the stages said is in {run}/log.txt, finished results are in {run}, and the same command "
-                     "continues from there\n")
+    sys.stderr.write(f"breast: stopped; what the stages said is in {run}/log.txt, finished results are in {run}, and "
+                     "the same command does not make them again\n")
     return code if code > 128 else 1
 
 

@@ -6,6 +6,7 @@ import os
 import sys
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
@@ -123,6 +124,14 @@ def _assigned(sides: dict[str, _OneSide], tumours: dict[str, str]) -> dict[str, 
     return {**done, **{name: side.with_tumour(place) for name, side in left.items()}}
 
 
+def _page_of_failure(run: str) -> str:
+    """Where the page says why, if it was made after the last stage: that of an earlier run says nothing of this one."""
+    page, reports = Path(run) / "page.html", [*Path(run).glob("*.json")]
+    if not page.exists() or any(report.stat().st_mtime > page.stat().st_mtime for report in reports):
+        return ""
+    return f"; {page} says why"
+
+
 def run_scan(installation: Installation, r: PipelineRequest) -> int:
     """Runs the request on each breast in view. Returns 0 if every one of them was modelled, otherwise the exit code of the first that
     failed; raises BreastError for what is refused before anything runs."""
@@ -132,7 +141,7 @@ def run_scan(installation: Installation, r: PipelineRequest) -> int:
     quiet = {name: replace(one, settings={k: v for k, v in one.settings.items() if k != "TUMOUR"} if len(requests) > 1 else one.settings)
              for name, one in requests.items()}
     sides = {name: _OneSide(installation, one) for name, one in quiet.items()}
-    targets = r.target.split()
+    all_sides, targets = sides, r.target.split()
     # Only what make accepts is announced: a refusal is one line. A plan may be given to a shell.
     mark = "#" if r.plan else "breast run:"
     sys.stdout.write("".join(f"{mark} assumed: {one}\n" for one in assumed))
@@ -162,5 +171,5 @@ def run_scan(installation: Installation, r: PipelineRequest) -> int:
             print(f"breast run: {name}: contrast {contrast}, found on the scan (another: SEGMENT_OPTIONS='--contrast NAME')")
         show_results(targets, side.run)
     for name in failed:
-        print(f"breast run: the {name} breast was not modelled", file=sys.stderr)
+        print(f"breast run: the {name} breast was not modelled to the end{_page_of_failure(all_sides[name].run)}", file=sys.stderr)
     return next(iter(failed.values()), 0)
