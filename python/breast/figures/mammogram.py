@@ -169,7 +169,7 @@ def _add_axes(panel: Panel, image: Mammogram, hanging: _Hanging, rings: Sequence
     if back.any():
         blank = (back & ~(image.images["thickness"] > 0)).any()
         chest = low[0] + 6 if hanging.left else high[0] - 6
-        panel.text((chest, low[1] + 14), "even grey: unknown" if blank else "behind the model: fat", SMALL - 1, _DIM, align)
+        panel.text((chest, low[1] + 14), "even grey: unknown" if blank else "behind the model: fat or muscle", SMALL - 1, _DIM, align)
     inset = edge - 10 * outward
     panel.text((inset, high[1] - 18), f"{image.side[0].upper()} {image.view}", 21, WHITE, inner)
     panel.text((inset, high[1] - 42), "lateral" if image.view == "CC" else "superior", SMALL, WHITE, inner)
