@@ -11,7 +11,7 @@ function tell() {
   }
   const shown = active();
   slider.disabled = !isMatched(shown);
-  const deep = isMatched(shown) ? (along * shown.match.depth).toFixed(1) + ' of ' + shown.match.depth.toFixed(1) + ' mm from the paddle' : '';
+  const deep = isMatched(shown) ? (along * shown.match.depth).toFixed(1) + ' of ' + shown.match.depth.toFixed(1) + ' mm of tissue' : '';
   document.getElementById('depth-text').textContent = deep;
   if (deep) slider.setAttribute('aria-valuetext', deep);
 }
