@@ -173,7 +173,7 @@ void Compression::close_plates(State& state) {
     return;
   }
   if (found_.path.end == PathEnd::on_edge) {
-    found_.left_with_on_edge = largest_edge_part(found_.path.points.back());
+    found_.left_with_on_edge = edge_parts(found_.path.points.back());
     return;
   }
   if (!has_let_go(state)) return;
@@ -415,11 +415,18 @@ void check(const HexMesh& mesh, const CompressionOptions& options,
 /// takes less than 0.40, and such states differ from accurate ones by up to 0.03.
 constexpr double surely_on_edge = 0.43;
 
-/// Largest share of a plate's force on its rounded edge.
+/// Shares of the paddle's and the detector's force on their rounded edges.
+std::array<double, 2> on_edges(const CompressionResult& found) {
+  if (found.left_with_on_edge) return *found.left_with_on_edge;
+  std::array<double, 2> parts{0, 0};
+  for (std::size_t k = 0; k < std::min(parts.size(), found.places.size()); ++k)
+    parts[k] = found.places[k].edge_part;
+  return parts;
+}
+
+/// The larger of the two.
 double on_edge(const CompressionResult& found) {
-  double most = found.left_with_on_edge.value_or(0);
-  for (const PressedPlace& place : found.places) most = std::max(most, place.edge_part);
-  return most;
+  return std::ranges::max(on_edges(found));
 }
 
 /// Whether a result between plates that were placed anew replaces the one before: always if it grips, and
@@ -478,7 +485,8 @@ std::optional<CompressionResult> placed_anew(const HexMesh& mesh, const Compress
   }
 }
 
-/// The options with the angle by which the patient bends forwards, and gravity in her frame.
+/// The options with the angle by which the patient bends forwards, and gravity in her frame; `options.gravity` is that of a
+/// patient who stands upright.
 CompressionOptions bent(const HexMesh& mesh, CompressionOptions options) {
   const ViewPose pose = place_pose(mesh, mesh.reference, options.angle_deg, options.plates);
   options.plates.bend_deg = pose.bend_deg;
@@ -486,43 +494,54 @@ CompressionOptions bent(const HexMesh& mesh, CompressionOptions options) {
   return options;
 }
 
+/// Where the plates stand and how far the patient bends forwards: what changes from one placement to the next.
+struct Stance {
+  std::optional<double> image_edge, bend_deg;
+};
+
 }  // namespace
 
 CompressionResult compress(const HexMesh& mesh, const CompressionOptions& options,
                            const MechanicsOptions& mechanics, Progress& progress) {
   check(mesh, options, mechanics);
-  CompressionOptions placed = bent(mesh, options);
-  const std::vector<double> farther = farther_image_edges(placed);
-  const double first_edge = placed.plates.image_edge.value_or(0);
-  const double unlimited = placed.path.most_on_edge;
-  if (!farther.empty()) placed.path.most_on_edge = surely_on_edge;
-  CompressionResult found = Compression(mesh, placed, mechanics, progress).run();
-  std::optional<double> best_edge = placed.plates.image_edge;
-  const auto place_at = [&](std::optional<double> image_edge) {
-    placed.plates.image_edge = image_edge;
-    return placed_anew(mesh, placed, mechanics, progress);
+  CompressionOptions first = bent(mesh, options);
+  const std::vector<double> farther = farther_image_edges(first);
+  if (!farther.empty()) first.path.most_on_edge = surely_on_edge;
+  CompressionResult found = Compression(mesh, first, mechanics, progress).run();
+  Stance best{first.plates.image_edge, first.plates.bend_deg};
+  const auto place_at = [&](const Stance& stance, double most_on_edge) {
+    CompressionOptions placed = options;
+    placed.plates.image_edge = stance.image_edge;
+    placed.plates.bend_deg = stance.bend_deg;
+    placed.path.most_on_edge = most_on_edge;
+    return placed_anew(mesh, bent(mesh, std::move(placed)), mechanics, progress);
   };
   bool search = presses_on_wall(found);
   for (const double image_edge : farther) {
     if (!search) break;
+    Stance stance{image_edge, best.bend_deg};
+    if (!options.plates.bend_deg)
+      stance.bend_deg = balanced_bend_deg(*best.bend_deg, on_edges(found));
     progress.note(message("the plates' edge carries ", std::round(100 * on_edge(found)),
                           " % of a plate's force: the plates are placed anew, their edge ",
-                          image_edge - first_edge, " mm farther from the wall than at first"));
-    if (image_edge == farther.back()) placed.path.most_on_edge = unlimited;
-    std::optional<CompressionResult> next = place_at(image_edge);
+                          image_edge - *first.plates.image_edge,
+                          " mm farther from the wall than at first"));
+    const bool last = image_edge == farther.back();
+    std::optional<CompressionResult> next =
+        place_at(stance, last ? options.path.most_on_edge : surely_on_edge);
     if (!next) break;
     search = !next->converged();
     const int placements = found.placements + 1;
     if (is_better(*next, found)) {
       std::swap(*next, found);
-      best_edge = image_edge;
+      best = stance;
     }
     charge(*next, found);
     found.placements = placements;
   }
   if (!found.left_with_on_edge) return found;
-  placed.path.most_on_edge = unlimited;  // no other place gave a result: this one is finished
-  std::optional<CompressionResult> finished = place_at(best_edge);
+  // No other place gave a result: this one is finished.
+  std::optional<CompressionResult> finished = place_at(best, options.path.most_on_edge);
   if (!finished) return found;
   charge(found, *finished);
   finished->placements = found.placements + 1;

@@ -3,6 +3,7 @@
 // first contact to the target. See docs/methods.md; equations (7)–(8) of the paper.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -70,9 +71,9 @@ struct CompressionResult : Equilibrium {
   std::vector<Judgement> judgement;  ///< comparison with clinical ranges, and comments on the solve
   std::vector<CompressionStop> stops;  ///< the targets
   int placements = 1;  ///< how often the plates were placed (PlateOptions::farthest_image_edge)
-  /// The part of a plate's force on its edge, if the plates were left there to be placed anew
-  /// (PathOptions::most_on_edge).
-  std::optional<double> left_with_on_edge;
+  /// The parts of the paddle's and the detector's force on their edges, if the plates were left there to
+  /// be placed anew (PathOptions::most_on_edge).
+  std::optional<std::array<double, 2>> left_with_on_edge;
   /// Of plates placed by the edge of the image: the state is within the ranges that decide, whether or
   /// not the target was reached.
   bool acceptable = false;

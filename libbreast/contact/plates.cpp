@@ -312,11 +312,19 @@ double muscle_lean_deg(const HexTopology& mesh, const std::vector<Vec3>& x, cons
 }
 
 double wall_bend_deg(const HexTopology& mesh, const std::vector<Vec3>& x, const ViewPose& pose) {
-  constexpr double most = 20;
   const Vec3 forwards = -towards_ribs(mesh, x);
   if (!(forwards.norm() > 0)) return 0;
   const double parallel = std::atan2(-forwards.dot(pose.n), forwards.dot(pose.e_u));
-  return std::clamp(parallel * 180 / std::numbers::pi, 0.0, most);
+  return std::clamp(parallel * 180 / std::numbers::pi, 0.0, most_auto_bend_deg);
+}
+
+double balanced_bend_deg(double bend_deg, const std::array<double, 2>& on_edge) {
+  // The more she bends, the nearer her chest is to the paddle's edge, and the farther from the detector's. On CC views of
+  // women with small breasts one degree changed the difference of the shares by 0.10 to 0.12.
+  constexpr double share_per_degree = 0.12, most_change = 4;
+  const double change = (on_edge[1] - on_edge[0]) / share_per_degree;
+  return std::clamp(bend_deg + std::clamp(change, -most_change, most_change), 0.0,
+                    most_auto_bend_deg);
 }
 
 ViewPose place_pose(const HexTopology& mesh, const std::vector<Vec3>& x, double angle_deg,

@@ -3,6 +3,7 @@
 // contact solver uses only the signed distance and its first two derivatives.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <string>
@@ -148,9 +149,14 @@ double wall_turn_deg(const HexTopology& mesh, const std::vector<Vec3>& x, double
 /// behind the muscle and its lower end in front of the fold. 0 for a beam from head to foot.
 double muscle_lean_deg(const HexTopology& mesh, const std::vector<Vec3>& x, const ViewPose& pose);
 
-/// Angle (degrees, 0 to 20) by which the patient bends forwards so that neither plate's edge lies nearer to her chest
+/// The farthest that a patient bends forwards without being told to, degrees.
+constexpr double most_auto_bend_deg = 20;
+/// Angle (degrees, 0 to most_auto_bend_deg) by which the patient bends forwards so that neither plate's edge lies nearer to her chest
 /// wall in the shape `x` than the other's; `pose` is hers while she stands upright.
 double wall_bend_deg(const HexTopology& mesh, const std::vector<Vec3>& x, const ViewPose& pose);
+/// Angle (degrees, 0 to most_auto_bend_deg) by which the patient bends forwards so that both edges carry the same share of
+/// their plate's force, if paddle and detector carry the shares `on_edge` at the angle `bend_deg`; at most 4 degrees from that.
+double balanced_bend_deg(double bend_deg, const std::array<double, 2>& on_edge);
 /// The pose with the angles that `options` state, the others chosen for the shape `x`.
 ViewPose place_pose(const HexTopology& mesh, const std::vector<Vec3>& x, double angle_deg,
                     const PlateOptions& options);

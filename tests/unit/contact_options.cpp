@@ -42,7 +42,7 @@ TEST(ContactOptions, AnImageEdgeBringsTheClinicsPlates) {
   EXPECT_EQ(cc.friction, 0.3);
   EXPECT_EQ(cc.pull_N, 30);
   choices.view = "MLO";
-  EXPECT_EQ(options_of(choices).plates.bend_deg, 0);
+  EXPECT_FALSE(options_of(choices).plates.bend_deg);
   EXPECT_EQ(options_of(choices).plates.image_edge, 0);
   // A layer of muscle is in the oblique image.
   EXPECT_EQ(compression_options(choices, Vec3::Zero(), {.muscle_mm = 10}).plates.image_edge, -12.5);

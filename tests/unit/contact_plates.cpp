@@ -224,6 +224,33 @@ TEST(Plates, APatientWhoseChestWallRecedesUpwardsBendsForwardsAlongIt) {
   }
 }
 
+// In an oblique view, too, she bends about the direction along the edge.
+TEST(Plates, APatientBendsForwardsInAnObliqueView) {
+  for (const Side side : {Side::left, Side::right}) {
+    SCOPED_TRACE(side_name(side));
+    HexMesh mesh = fixtures::standing_block({50, 60, 40}, {5, 6, 4});
+    mesh.side = side;
+    for (Vec3& x : mesh.points) x = Eigen::AngleAxisd(0.2, -Vec3::UnitX()) * x;
+    mesh.reference = mesh.imaged = mesh.points;
+    PlateOptions options;
+    options.bend_deg = options.lean_deg = std::nullopt;
+    options.image_edge = 5;
+    const Vec3 forwards(0, -std::cos(0.2), std::sin(0.2));  // away from the ribs
+    const ViewPose pose = place_pose(mesh, mesh.points, 45, options);
+    EXPECT_GT(pose.bend_deg, 5);
+    EXPECT_NEAR(pose.n.dot(forwards), 0, 1e-9) << "neither plate's edge is nearer to the ribs";
+  }
+}
+
+TEST(Plates, APatientBendsUntilBothEdgesCarryTheSameShare) {
+  EXPECT_NEAR(balanced_bend_deg(8, {0.20, 0.44}), 10, 1e-9) << "to the paddle's edge";
+  EXPECT_NEAR(balanced_bend_deg(8, {0.44, 0.20}), 6, 1e-9) << "to the detector's";
+  EXPECT_EQ(balanced_bend_deg(8, {0.5, 0.5}), 8);
+  EXPECT_EQ(balanced_bend_deg(8, {0, 1}), 12) << "at most 4 degrees at once";
+  EXPECT_EQ(balanced_bend_deg(18, {0, 1}), 20);
+  EXPECT_EQ(balanced_bend_deg(2, {1, 0}), 0);
+}
+
 // The beam's direction and the image's axes as functions of the angle have one axis of rotation.
 TEST(Plates, ALargerAngleTurnsLeaningPlatesAboutTheAxisOfTheirPose) {
   for (const Side side : {Side::left, Side::right}) {

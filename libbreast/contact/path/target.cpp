@@ -19,10 +19,13 @@ std::vector<CompressionTarget> all_of(const CompressionTarget& target) {
 
 }  // namespace
 
-double largest_edge_part(const PathPoint& point) {
+std::array<double, 2> edge_parts(const PathPoint& point) {
   const auto part = [](double edge, double force) { return force > 0 ? edge / force : 0; };
-  return std::max(part(point.paddle_edge_N, point.paddle_N),
-                  part(point.detector_edge_N, point.detector_N));
+  return {part(point.paddle_edge_N, point.paddle_N), part(point.detector_edge_N, point.detector_N)};
+}
+
+double largest_edge_part(const PathPoint& point) {
+  return std::ranges::max(edge_parts(point));
 }
 
 const char* target_name(TargetKind kind) {

@@ -2,6 +2,7 @@
 // Targets at which a compression stops, and the distance of a state on its path from them.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -29,7 +30,9 @@ struct PathPoint {
   int iterations = 0;
 };
 
-/// The larger of the parts of a plate's force that lie on its rounded edge.
+/// The parts of the paddle's and the detector's force that lie on their rounded edges.
+std::array<double, 2> edge_parts(const PathPoint& point);
+/// The larger of the two.
 double largest_edge_part(const PathPoint& point);
 /// "thickness", "paddle force", "mean pressure" or "contact area".
 const char* target_name(TargetKind kind);
