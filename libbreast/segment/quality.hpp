@@ -17,6 +17,10 @@ struct StageQuality {
   std::string worst;  ///< the quantity with the lowest score
 };
 
+/// Dice coefficient of labelled fibroglandular tissue that its fractions let expect: if the fraction of a voxel is the
+/// probability that it is gland, twice the sum over labelled voxels, over their number and the sum over the breast. 1 without gland.
+double expected_gland_dice(const LabelVolume& labels);
+
 /// Score below which a stage is doubtful and the result must be checked.
 constexpr double least_quality = 0.5;
 

@@ -168,9 +168,10 @@ void find_doubts(Segmentation& result, const Work& work) {
                 " cm2 of the skin are flat, as if the breast rested on the coil or table: "
                 "backward assumes that it hangs freely"));
   }
-  if (result.posture == Posture::prone && result.nipple_from_extreme > 10) {
-    result.doubts.push_back(message("nipple found ", std::lround(result.nipple_from_extreme),
-                                    " mm from the most anterior point: check it (--overlay)"));
+  if (result.posture == Posture::prone && !(result.papilla_height > 0)) {
+    result.doubts.push_back(
+        "nothing stands out of the skin near the front of the breast: its most anterior point is taken for the nipple; "
+        "check it (--overlay)");
   }
 }
 
