@@ -144,7 +144,7 @@ void declare(Tool& tool, Choices& c) {
       c.bend, "--bend", "auto|DEG",
       "the patient bends forwards by this angle, and gravity turns with her; auto, from 0 to 20, brings the edges of "
       "both plates equally near to a chest wall that recedes upwards, and, when the plates of a CC view are placed anew, "
-      "equally loaded (default: auto with --image-edge, otherwise 0)");
+      "equally loaded (default: auto for CC and MLO with --image-edge, otherwise 0)");
   tool.choice(
       c.contact_points, "--contact-points", {"surface", "nodes"},
       "surface keeps the element faces out of the plates to within 0.05 mm; nodes keeps the "

@@ -525,7 +525,8 @@ CompressionResult compress(const HexMesh& mesh, const CompressionOptions& option
     progress.note(message("the plates' edge carries ", std::round(100 * on_edge(found)),
                           " % of a plate's force: the plates are placed anew, their edge ",
                           image_edge - *first.plates.image_edge,
-                          " mm farther from the wall than at first"));
+                          " mm farther from the wall than at first, the patient bent forwards by ",
+                          *stance.bend_deg, " degrees"));
     const bool last = image_edge == farther.back();
     std::optional<CompressionResult> next =
         place_at(stance, last ? options.path.most_on_edge : surely_on_edge);

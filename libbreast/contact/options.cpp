@@ -115,7 +115,8 @@ std::vector<CompressionStop> CompressionChoices::stops() const {
 Placement Placement::clinical(View view) {
   Placement placement;
   placement.edge_radius = view == View::cc ? radius_cc : radius_oblique;
-  placement.turn_deg = placement.lean_deg = placement.bend_deg = std::nullopt;
+  placement.turn_deg = placement.lean_deg = std::nullopt;
+  if (view != View::ml) placement.bend_deg = std::nullopt;
   if (view == View::cc) placement.most_turn_deg = most_turn_cc;
   placement.method = ContactMethod::surface;
   placement.friction = skin_friction;

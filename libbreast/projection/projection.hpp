@@ -30,7 +30,7 @@ struct ProjectionReport {
       0;  ///< part of the path in voxels labelled air, muscle or other (taken as fat)
   int muscle_columns = 0;  ///< pixels that show muscle
   int back_columns =
-      0;  ///< pixels with a column that leaves through the back; not included in the volumes
+      0;  ///< pixels with a column that leaves through the back or lies behind one; not included in the volumes
 };
 
 /// Throws Error (input) for a mesh without compression record or an image

@@ -170,7 +170,7 @@ void find_doubts(Segmentation& result, const Work& work) {
   }
   if (result.posture == Posture::prone && !(result.papilla_height > 0)) {
     result.doubts.push_back(
-        "nothing stands out of the skin near the front of the breast: its most anterior point is taken for the nipple; "
+        "nothing stands out of the skin near the front of the breast: the most anterior point of the smoothed skin is taken for the nipple; "
         "check it (--overlay)");
   }
 }

@@ -3,8 +3,8 @@
 """Other breasts on the same ribs: other_breasts.py MR TRUTH FACTOR OUT_MR OUT_TRUTH
 
 MR and TRUTH are a scan (NRRD) and its label map in the codes of the FDA's breast phantoms, on one grid whose axes are left, posterior and
-superior. The soft tissue in front of the chest wall becomes FACTOR times as thick along rays from the thorax's axis in each axial slice, and half
-as much changes over the sternum: 0.6 makes small breasts, 1.25 large ones. Ribs, view and voxels stay; for a factor above one, air is
+superior. The soft tissue in front of the chest wall becomes FACTOR times as thick along rays from the thorax's axis in each axial slice; over the
+sternum it changes half as much. 0.6 makes small breasts, 1.25 large ones. Ribs, view and voxels stay; for a factor above one, air is
 added in front. Needs Debian's python3-scipy.
 """
 from __future__ import annotations

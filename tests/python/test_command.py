@@ -166,6 +166,9 @@ class Assumed(StandingInFolder):
         for name, time in (("labels.json", 10), ("page.html", 20)):
             touch(name)
             os.utime(name, (time, time))
+        self.assertEqual(scan_run._page_of_failure("."), "", "a page without a banner does not say why")
+        Path("cc.json").write_text('{"tool": "compress", "view": "CC", "status": "not_gripped", "reason": "not_gripped"}')
+        os.utime("cc.json", (10, 10))
         self.assertEqual(scan_run._page_of_failure("."), "; page.html says why")
         os.utime("labels.json", (30, 30))
         self.assertEqual(scan_run._page_of_failure("."), "")

@@ -86,7 +86,7 @@ class Lines(unittest.TestCase):
 
 class States(unittest.TestCase):
     def test_a_hand_that_lets_go_is_said(self):
-        """As it lets go the breast slips back by centimetres, which without a word looks like an error."""
+        """As it lets go the breast may slip back, which without a word looks like an error."""
         folder = small_run.scratch("hand")
         states = [types.SimpleNamespace(file=folder / f"state_00{k}.vtkhdf") for k in (1, 2, 3)]
         self.assertEqual(_hands(states), ["", "", ""], "a folder without a table, or gravity that turns")

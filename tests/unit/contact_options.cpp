@@ -44,6 +44,9 @@ TEST(ContactOptions, AnImageEdgeBringsTheClinicsPlates) {
   choices.view = "MLO";
   EXPECT_FALSE(options_of(choices).plates.bend_deg);
   EXPECT_EQ(options_of(choices).plates.image_edge, 0);
+  choices.view = "ML";
+  EXPECT_EQ(options_of(choices).plates.bend_deg, 0) << "about her long axis she turns";
+  choices.view = "MLO";
   // A layer of muscle is in the oblique image.
   EXPECT_EQ(compression_options(choices, Vec3::Zero(), {.muscle_mm = 10}).plates.image_edge, -12.5);
 }

@@ -125,9 +125,14 @@ def _assigned(sides: dict[str, _OneSide], tumours: dict[str, str]) -> dict[str, 
 
 
 def _page_of_failure(run: str) -> str:
-    """Where the page says why, if it was made after the last stage: that of an earlier run says nothing of this one."""
+    """Where the page says why, if plates do not hold the breast and it was made after the last stage: that of an earlier run says nothing
+    of this one."""
+    from ..page.remarks import banners_of
+
     page, reports = Path(run) / "page.html", [*Path(run).glob("*.json")]
     if not page.exists() or any(report.stat().st_mtime > page.stat().st_mtime for report in reports):
+        return ""
+    if not banners_of(Path(run)):
         return ""
     return f"; {page} says why"
 

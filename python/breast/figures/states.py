@@ -59,7 +59,7 @@ def _turned(first: State, state: State) -> float:
 
 
 def _hands(states: list[State]) -> list[str]:
-    """What a hand does at each state, by the table beside it: what it lets go slips back, which looks like a leap between two pictures."""
+    """What a hand does at each state, by the table beside it: the breast may slip back when the hand lets go, which looks like a leap between two pictures."""
     table = states[0].file.parent / "states.tsv"
     rows = {row["file"]: row for row in read_table(table).records()} if table.exists() else {}
     held = [any((number_in(rows.get(state.file.name, {}).get(name, "")) or 0) > 0 for name in ("hand_carries_percent", "hand_pulls_N"))

@@ -174,13 +174,14 @@ def _draw_line(picture: Picture, line: MatchedLine, image: Mammogram, put: Calla
 
 def _band(line: MatchedLine, image: Mammogram) -> list[np.ndarray]:
     """Borders (n, 2) of the band in the breast, mm: a place beside the breast is none of the finding's."""
-    depth, pitch = body_depth(image)
-    v, u = pitch * (np.indices(depth.shape).reshape(2, -1) - 1)
-    return contours(np.minimum(line.inside_band(np.stack([u, v], -1)).reshape(depth.shape), depth), 0, pitch, np.full(2, -pitch))
+    inside, pitch = inside_body(image)
+    v, u = pitch * (np.indices(inside.shape).reshape(2, -1) - 1)
+    return contours(np.minimum(line.inside_band(np.stack([u, v], -1)).reshape(inside.shape), inside), 0, pitch, np.full(2, -pitch))
 
 
-def body_depth(image: Mammogram) -> tuple[np.ndarray, float]:
-    """About how far (mm) every n-th pixel lies inside the breast, negative beside it, in an image with a border of one; their distance."""
+def inside_body(image: Mammogram) -> tuple[np.ndarray, float]:
+    """Positive in the breast, negative beside it and zero at its border, at every n-th pixel of an image with a border of one; the distance
+    of these pixels, mm. Not a distance from the border."""
     skip = max(1, round(_RASTER_MM / image.pixel_mm))
     body = (image.images["thickness"] > 0) | (image.images["through_back"] != 0)
     smooth = 4 * (gaussian(body[::skip, ::skip].astype(float), 1) - 0.5)
@@ -192,7 +193,7 @@ def _points(places: np.ndarray) -> str:
 
 
 def _jpeg(grey: np.ndarray) -> str:
-    """Grey values from 0 to 1, (rows, columns), as a data URI: a fifth of the bytes of a PNG, and nobody sees the difference."""
+    """Grey values from 0 to 1, (rows, columns), as a data URI: a fifth of the bytes of a PNG."""
     from PIL import Image
 
     stream = io.BytesIO()

@@ -16,8 +16,12 @@ from ..study.table import NO_VALUE, read_table
 
 SIDES_90 = 1.644854
 """Standard deviations to either side of a normal distribution that hold 90 %."""
-_HOOK_MM = 6  # within which a hook turns back
-_SEEN_MM, _END_MM = 5, 30  # of a line behind a hook that is seen, and that may still lie near the skin
+_HOOK_MM = 6
+"""A line that turns back within this length looks like a hook."""
+_SEEN_MM = 5
+"""A shorter end behind the hook is not seen on the page."""
+_END_MM = 30
+"""With a longer end behind it, the turn is no hook at the line's end."""
 _NEAR_MM = 0.5  # between the places of a line from which a band is measured
 
 
@@ -73,13 +77,13 @@ class MatchedLine:
         """What limits the line or looks odd in it, in words; "" if nothing does."""
         limit = {"through_chest_wall": "The line ends where its tissue meets the chest wall. ",
                  "behind_image": "Part of the line lies behind the back edge of the image. "}.get(self.status, "")
-        return (limit + ("The hook in the line is tissue near the skin, which a plate has dragged along." if self._turns_back() else "")).strip()
+        return (limit + ("The hook in the line is probably tissue near the skin, which a plate has dragged along." if self._turns_back() else "")).strip()
 
     def _turns_back(self) -> bool:
         """Whether the line goes the opposite way within a few mm, not far from its ends, which lie in the skin."""
         along = np.diff(self.points, axis=0)
-        length = np.linalg.norm(along, axis=1)
-        place, used = np.cumsum(length) - 0.5 * length, (length > 1e-6) & (np.diff(self.stretch) == 0)
+        length = np.linalg.norm(along, axis=1) * (np.diff(self.stretch) == 0)
+        place, used = np.cumsum(length) - 0.5 * length, length > 1e-6
         place, stretch, along = place[used], self.stretch[:-1][used], along[used] / length[used, None]
         near = (np.abs(place[:, None] - place) < _HOOK_MM) & (stretch[:, None] == stretch)
         to_end = np.minimum(place, length.sum() - place)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the scripts of the page read: images, curves of both directions, the outline of the breast and perhaps the scan, packed.
 
-Arrays are little-endian numbers, deflated and as base64; the script data.js unpacks them. Of neighbours the difference is held, which takes
-half the bytes.
+Arrays are little-endian numbers, deflated and as base64; the script data.js unpacks them. Where neighbours are alike, their
+differences are stored, which halves the size.
 """
 from __future__ import annotations
 
@@ -132,7 +132,7 @@ def _grid_about(low: np.ndarray, high: np.ndarray, scan: Grid) -> Grid:
 
 
 def _array(values: np.ndarray, step: int = 0) -> dict[str, Any]:
-    """step: how many numbers before each the like of it stands; 0 where there is none."""
+    """step: each number is stored as its difference from the one `step` places before; 0: as it is."""
     numbers = np.ascontiguousarray(values).ravel()
     kind = numbers.dtype.newbyteorder("<").str[1:]
     if step:

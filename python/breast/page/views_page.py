@@ -32,8 +32,8 @@ _TUMOUR_WORDS = {"none": "", "given": "the tumour of the MR, where the model has
                  "artificial": "an artificial tumour, put there by the program: not a finding"}
 
 _ANIMATIONS = {"supine": "The breast while the patient turns from prone to supine, equilibrium by equilibrium",
-               "cc": "The breast while the plates close in CC, equilibrium by equilibrium; when the hand lets go, it slips back",
-               "mlo": "The breast while the plates close in MLO, equilibrium by equilibrium; when the hand lets go, it slips back"}
+               "cc": "The breast while the plates close in CC, equilibrium by equilibrium; the breast may slip back when a hand lets go of it",
+               "mlo": "The breast while the plates close in MLO, equilibrium by equilibrium; the breast may slip back when a hand lets go of it"}
 _LARGEST_ANIMATIONS = 3_000_000  # bytes
 _NOT_COUNTED = {"tumour": "how stiff the tumour is", "sternum": "how firmly the breast is held at the sternum",
                 "chest_wall": "where exactly the chest wall lies", "angle": "the true angle of the view",

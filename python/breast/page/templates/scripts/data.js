@@ -28,6 +28,9 @@ unpacked(JSON.parse(document.getElementById('data').textContent)).then(found => 
   const program = document.createElement('script');
   program.textContent = document.getElementById('program').textContent;
   document.body.append(program);
-}).catch(() => {
-  document.getElementById('live').textContent = 'This part needs a browser of 2023 or later. Everything above does not.';
+}).catch(error => {
+  console.error(error);
+  document.getElementById('live').textContent = typeof DecompressionStream === 'undefined' ?
+      'This part needs a browser of 2023 or later. Everything above does not.' :
+      'This part could not be unpacked: make the page again. Everything above is complete.';
 });
