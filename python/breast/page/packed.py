@@ -21,7 +21,7 @@ from ..lookup import Lookup
 from ..mammogram import Mammogram
 from ..state import State
 from ..volume import Volume
-from .drawing import body_depth
+from .drawing import inside_body
 from .facts import slice_of
 
 LARGEST_PAGE = 25_000_000  # bytes
@@ -50,7 +50,7 @@ def packed_image(image: Mammogram, compressed: State) -> dict[str, Any]:
     grey = hung(image)
     shown = np.rint(65535 * grey[::skip, ::skip]).astype("<u2")
     rows, columns = grey.shape
-    depth, pitch = body_depth(image)
+    depth, pitch = inside_body(image)
     places = [(name, image.project(compressed.landmark_position(name)[None])[0]) for name in landmarks_of(compressed)]
     return {"view": image.view, "width": shown.shape[1], "height": shown.shape[0], "pixel": image.pixel_mm * skip,
             "u_mm": image.pixel_mm * (columns - 1), "v_mm": image.pixel_mm * (rows - 1),
