@@ -29,7 +29,8 @@ std::vector<Quantity> measures_of(const Segmentation& result) {
   add("fat_fraction", "fat_fraction", result.fat_fraction);
   add("fat_fraction_region_growing", "fat_fraction_region_growing", result.fat_fraction_grown);
   add("fibroglandular_agreement", "fibroglandular_agreement", result.fibroglandular_agreement);
-  add("fibroglandular_expected_dice", "fibroglandular_expected_dice", expected_gland_dice(labels));
+  add("fibroglandular_expected_dice", "fibroglandular_expected_dice",
+      result.fibroglandular_expected_dice);
   add("lost_edges_percent", "lost_edges_percent", result.lost_edges_percent);
   const Vec3& nipple = labels.landmarks.at("nipple");
   constexpr const char* axis[3] = {"x", "y", "z"};

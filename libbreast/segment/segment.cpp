@@ -23,6 +23,7 @@
 #include "segment/grid/itk_filters.hpp"
 #include "segment/grid/noise.hpp"
 #include "segment/plausibility.hpp"
+#include "segment/quality.hpp"
 #include "segment/tissue/compact_gland.hpp"
 #include "segment/tissue/lost_edges.hpp"
 #include "segment/tissue/skin_thickness.hpp"
@@ -85,6 +86,7 @@ void summarise(Segmentation& result, const Work& work) {
   result.fat_fraction = work.gland.fat_fraction;
   result.fat_fraction_grown = work.gland.fat_fraction_grown;
   result.fibroglandular_agreement = work.gland.agreement;
+  result.fibroglandular_expected_dice = expected_gland_dice(result.labels);
   result.sternal_thickness = work.extent.sternal_thickness;
   result.greatest_thickness = work.extent.greatest_thickness;
   double sum = 0, sure = 0, sigma = 0, count = 0;

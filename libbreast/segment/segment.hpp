@@ -66,6 +66,7 @@ struct Segmentation {
   double bias_range = 1;                     ///< brightest over dimmest fat, 1 %-99 % of the breast
   double muscle_ratio = 0, gland_ratio = 0;  ///< brightness relative to fat
   double fat_fraction = 0, fat_fraction_grown = 0, fibroglandular_agreement = 0;
+  double fibroglandular_expected_dice = 1;         ///< expected_gland_dice (quality.hpp)
   double wall_confidence_mean = 0;                 ///< over the breast's columns
   double wall_sigma_mean = 0, wall_sigma_p95 = 0;  ///< mm, over the breast's columns
   std::optional<double>

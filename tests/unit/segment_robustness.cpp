@@ -415,8 +415,21 @@ TEST(Quality, FallsBelowOneHalfWhereAReaderHasToLook) {
   worse = base;
   worse.lost_edges_percent = 65;
   EXPECT_LT(score(worse, "tissue"), least_quality);
+  worse = base;
+  worse.fibroglandular_expected_dice = 0.55;
+  EXPECT_LT(score(worse, "tissue"), least_quality);
   worse.wall_confident_percent = std::nan("");
   EXPECT_EQ(score(worse, "wall"), 0);
+}
+
+TEST(Quality, ExpectsTheDiceCoefficientOfFractionsAsProbabilities) {
+  LabelVolume labels;
+  EXPECT_EQ(expected_gland_dice(labels), 1) << "without gland";
+  const auto code = [](Tissue tissue) { return static_cast<std::uint8_t>(tissue); };
+  labels.tissue = {code(Tissue::fibroglandular), code(Tissue::fibroglandular), code(Tissue::fat),
+                   code(Tissue::muscle)};
+  labels.fibroglandular_fraction = {1, 0.5, 0.25, 1};
+  EXPECT_NEAR(expected_gland_dice(labels), 2 * 1.5 / (2 + 1.75), 1e-6) << "muscle does not count";
 }
 
 /// The same patient with another brightness (of fat) of muscle and lung.

@@ -24,7 +24,8 @@ double grade(double value, double none, double full, double most) {
 
 /// Largest score of a sternum that lies deep. It counts less if fat explains the depth: fat that is thick and bright over the
 /// sternum is bright below the skin too. On sides with bright fat, the tissue below the skin has 0.82 to 0.91 of the greatest
-/// brightness nearby (0.76 on both sides of one woman, whose sternum is not deep); with muscle as bright as fat, at most 0.76.
+/// brightness nearby. (One woman has 0.76 on both sides, but her sternum is not deep.) Where muscle is as bright as fat, it has at
+/// most 0.76.
 double deep_sternum(const FatContrast& contrast) {
   if (!contrast.skin_resolved) return 1.2;
   return 1 - 0.2 * grade(contrast.subcutaneous, 0.78, 0.82, 1);
