@@ -151,8 +151,8 @@ double muscle_lean_deg(const HexTopology& mesh, const std::vector<Vec3>& x, cons
 
 /// The farthest that a patient bends forwards without being told to, degrees.
 constexpr double most_auto_bend_deg = 20;
-/// Angle (degrees, 0 to most_auto_bend_deg) by which the patient bends forwards so that neither plate's edge lies nearer to her chest
-/// wall in the shape `x` than the other's; `pose` is hers while she stands upright.
+/// Angle (degrees, 0 to most_auto_bend_deg) by which the patient bends forwards until the edges of both plates are equally far from her
+/// chest wall in the shape `x`; `pose` is hers while she stands upright.
 double wall_bend_deg(const HexTopology& mesh, const std::vector<Vec3>& x, const ViewPose& pose);
 /// Angle (degrees, 0 to most_auto_bend_deg) by which the patient bends forwards so that both edges carry the same share of
 /// their plate's force, if paddle and detector carry the shares `on_edge` at the angle `bend_deg`; at most 4 degrees from that.

@@ -59,7 +59,7 @@ def _turned(first: State, state: State) -> float:
 
 
 def _hands(states: list[State]) -> list[str]:
-    """What a hand does at each state, by the table beside it: the breast may slip back when the hand lets go, which looks like a leap between two pictures."""
+    """What a hand does at each state, by the table beside them. When it lets go, the breast may slip back, which looks like a leap."""
     table = states[0].file.parent / "states.tsv"
     rows = {row["file"]: row for row in read_table(table).records()} if table.exists() else {}
     held = [any((number_in(rows.get(state.file.name, {}).get(name, "")) or 0) > 0 for name in ("hand_carries_percent", "hand_pulls_N"))
@@ -67,9 +67,9 @@ def _hands(states: list[State]) -> list[str]:
     return [", held by a hand" if holds else ", the hand has let go" if any(held[:k]) else "" for k, holds in enumerate(held)]
 
 
-def _words(states: list[State], k: int) -> str:
+def _words(states: list[State], k: int, hand: str) -> str:
     state = states[k]
-    words = compression_words(state) + _hands(states)[k] if state.contact else f"gravity turned by {_turned(states[0], state):.0f} degrees"
+    words = compression_words(state) + hand if state.contact else f"gravity turned by {_turned(states[0], state):.0f} degrees"
     for name in ("tumour", "nipple"):
         if name == "nipple" and name in state.landmarks or name == "tumour" and has_tumour(state):
             away = np.linalg.norm(place_of(state, name, state.points) - place_of(states[0], name, states[0].points))
@@ -103,10 +103,10 @@ def _pictures(states: list[State], curves: dict[str, list[Line]]) -> Iterator[Pi
     column = "; green: the tissue above its CC pixel" if curves.get("column in imaged") else ""
     everything = np.concatenate([scene.shown() for scene in scenes])
     views = [_View(camera, words, camera.flat(everything)) for camera, words in _cameras(states[-1])]
-    for k, (state, scene) in enumerate(zip(states, scenes)):
+    for k, (state, scene, hand) in enumerate(zip(states, scenes, _hands(states))):
         picture = Picture(*_SIZE)
         head = picture.panel(0, 0.92, 1, 1)
-        head.caption(_words(states, k))
+        head.caption(_words(states, k, hand))
         panels = [picture.panel(n / len(views), 0, (n + 1) / len(views), 0.93) for n in range(len(views))]
         for panel, view in zip(panels, views):
             panel.caption(f"{view.words}{'; ' + tumour_words(state) if tumour_words(state) else ''}{column}")

@@ -77,7 +77,8 @@ class MatchedLine:
         """What limits the line or looks odd in it, in words; "" if nothing does."""
         limit = {"through_chest_wall": "The line ends where its tissue meets the chest wall. ",
                  "behind_image": "Part of the line lies behind the back edge of the image. "}.get(self.status, "")
-        return (limit + ("The hook in the line is probably tissue near the skin, which a plate has dragged along." if self._turns_back() else "")).strip()
+        hook = "The hook in the line is probably tissue near the skin, which a plate has dragged along."
+        return (limit + (hook if self._turns_back() else "")).strip()
 
     def _turns_back(self) -> bool:
         """Whether the line goes the opposite way within a few mm, not far from its ends, which lie in the skin."""
