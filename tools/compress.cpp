@@ -68,8 +68,8 @@ void declare(Tool& tool, Choices& c) {
       "folds_on_chest_wall, folds_between_edge_and_wall, folds_between_plates, "
       "folds_behind_plates; the same with shrinks_ for an element that shrinks too much "
       "without folding; iteration_limit, "
-      "indefinite_tangent, no_admissible_step, solve_limit, out_of_reach, gravity_not_carried, "
-      "pull_not_carried, no_equilibrium_at_touch, not_gripped) and explanation is a sentence.");
+      "indefinite_tangent, no_admissible_step, solve_limit, cost_limit, out_of_reach, "
+      "gravity_not_carried, pull_not_carried, no_equilibrium_at_touch, not_gripped) and explanation is a sentence.");
   tool.cite("Pathmanathan et al. 2008, section II-D, equations (7)-(8)");
   tool.example("compress reference.vtkhdf cc.vtkhdf --view CC",
                "craniocaudal, with the force of a screening mammogram");
@@ -194,6 +194,11 @@ void declare(Tool& tool, Choices& c) {
       "longest step by which the plates close (default: 7 % of the initial thickness; in MLO and ML "
       "with friction, 0.6 % as long as the hand is being withdrawn)",
       0.1, 1000);
+  tool.integer(
+      c.most_iterations, "--most-iterations", "N",
+      "no further step or placement of the plates begins after so many iterations of Newton's "
+      "method (usually 130 to 600 are made)",
+      1, 1000000);
   tool.choice(c.contact, "--contact", {"active-set", "al"},
               "contact algorithm: exact active set, or the paper's augmented Lagrangian");
   declare_estimate(tool, c.estimate);
@@ -204,7 +209,7 @@ void declare(Tool& tool, Choices& c) {
   tool.topic("plates", {"--standoff", "--image-edge", "--turn", "--lean", "--bend",
                         "--contact-points", "--positioning", "--pull", "--edge-at", "--middle-at",
                         "--edge-radius", "--tilt", "--detector", "--friction"});
-  tool.topic("solver", {"--plate-step", "--contact"});
+  tool.topic("solver", {"--plate-step", "--most-iterations", "--contact"});
   tool.basic({"--view", "--angle", "--thickness", "--reduction", "--force", "--like",
               "--image-edge", "--friction", "--materials"});
   tool.check([&c] {

@@ -46,6 +46,10 @@ StopReason explain_stop(const HexMesh& mesh, const Eigen::VectorXd& good, const 
   if (path.end == PathEnd::solve_limit) {
     return {"solve_limit", message("the limit of ", path.solves, " plate positions is reached")};
   }
+  if (path.end == PathEnd::cost_limit) {
+    return {"cost_limit",
+            message("the limit of Newton iterations is reached; --most-iterations allows more")};
+  }
   if (path.end == PathEnd::out_of_reach) {
     return {"out_of_reach",
             message("the plates would have to close to ", path.failed_thickness, " mm")};

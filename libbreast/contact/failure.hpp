@@ -15,7 +15,7 @@ namespace breast {
 /// "folds_behind_plates", "folds_between_plates" (where the worst element of the refused step
 /// lies); the same five with "shrinks_" for "folds_" (no element folds, but one shrinks too much in
 /// one step, or its law overflows); "iteration_limit", "indefinite_tangent", "no_admissible_step";
-/// "solve_limit" and "out_of_reach" (a target force or pressure not reached by almost closed
+/// "solve_limit", "cost_limit" and "out_of_reach" (a target force or pressure not reached by almost closed
 /// plates).
 struct StopReason {
   std::string id, sentence;

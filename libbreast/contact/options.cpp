@@ -161,6 +161,7 @@ CompressionOptions compression_options(const CompressionChoices& c, const Vec3& 
   const bool held = faces && options.friction > 0 && options.positioning == Positioning::lifted;
   options.pull_N = c.pull.value_or(held ? usual.pull_N : 0);
   options.path.first_step = options.path.longest_step = c.plate_step.value_or(0);
+  options.path.most_iterations = c.most_iterations;
   if (options.view != View::cc && options.friction > 0) options.path.slipping_part = slipping_part;
   options.stops = c.stops();
   return options;

@@ -30,6 +30,7 @@ struct CompressionChoices {
   std::string contact_points, positioning;  ///< empty: the default of compression_options
   std::optional<double> angle, thickness, reduction, force, pressure, area, plate_step;
   std::optional<double> friction, edge_radius, pull;
+  int most_iterations = PathOptions().most_iterations;
   PlateOptions plates;
   /// The targets given among thickness, reduction, force, pressure and area; the first one that is
   /// reached ends the compression.

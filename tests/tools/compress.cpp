@@ -140,6 +140,18 @@ TEST_F(CompressTool, PlacesPlatesAnewThatPressOnTheWallOfAPatientWhoBendsForward
   EXPECT_LT((mesh.gravity - mesh.gravity.norm() * beam).norm(), 1e-6) << "of CC, along the beam";
 }
 
+// Its last equilibrium is kept if that is asked for, and the placements that would follow are not begun.
+TEST_F(CompressTool, EndsAfterTheIterationsThatAreAllowedAndSaysHowToAllowMore) {
+  const std::vector<std::string> limited{
+      "CC", "--reduction", "25",   "--image-edge",      "auto", "--turn",
+      "5",  "--friction",  "0.15", "--most-iterations", "20"};
+  const ToolResult refused = compress(limited);
+  EXPECT_EQ(refused.exit_code, 3) << refused.err;
+  EXPECT_NE(refused.err.find("--most-iterations"), std::string::npos) << refused.err;
+  EXPECT_EQ(report().number("placements"), 1);
+  EXPECT_LT(report().number("newton_iterations"), 120);
+}
+
 // On the way, faces lie deeper in the plates and the force is smaller.
 TEST_F(CompressTool, EndsAtTheForceThatWasAskedFor) {
   const ToolResult good =

@@ -157,16 +157,20 @@ TEST(ActiveSet, NothingTouchesWhenThePlatesAreWide) {
 }
 
 namespace {
-PathResult close(PlatePair& plates, ContactSolver& contact, State& state,
-                 const CompressionTarget& target, PathOptions options = {}) {
-  const auto area = [&](const State& s) {
-    double touching = 0;  // 25 mm² for every node on the paddle
+/// 25 mm² for every node on the paddle.
+PaddleArea paddle_area(const PlatePair& plates, const ContactSolver& contact) {
+  return [&](const State& s) {
+    double touching = 0;
     for (const int node : contact.candidates()) {
       touching += plates.paddle.gap(s.x.segment<3>(3L * node)).value < 1e-6 ? 25 : 0;
     }
     return touching;
   };
-  return follow_path(contact, plates, state, target, area, options);
+}
+
+PathResult close(PlatePair& plates, ContactSolver& contact, State& state,
+                 const CompressionTarget& target, PathOptions options = {}) {
+  return follow_path(contact, plates, state, target, paddle_area(plates, contact), options);
 }
 }  // namespace
 
@@ -316,8 +320,9 @@ TEST(CompressionPath, ATargetThatEveryPositionPassesIsSaid) {
   EXPECT_GT(path.thickness, start - 2 * options.shortest_step);
 }
 
-// Any part is more than −1: the first position beyond the target ends the path, unfinished.
-TEST(CompressionPath, EndsUnfinishedWhereTheEdgeCarriesTooMuch) {
+// Any part is more than −1: the first position beyond the target ends the path, unfinished. Finished after that, it is the
+// path that was not left, at no more cost.
+TEST(CompressionPath, EndsUnfinishedWhereTheEdgeCarriesTooMuchAndCanBeFinished) {
   QuadraticBody body(24, 11);
   const CompressionTarget target{TargetKind::force, 0.05};
   PlatePair plates = plates_at(-20, 20, 15);
@@ -331,11 +336,32 @@ TEST(CompressionPath, EndsUnfinishedWhereTheEdgeCarriesTooMuch) {
   state = body.start();
   PathOptions options;
   options.most_on_edge = -1;
-  const PathResult path = close(plates, left, state, target, options);
+  ClosingPath way(left, plates, target, paddle_area(plates, left), options);
+  const PathResult path = way.follow(state);
   EXPECT_EQ(path.end, PathEnd::on_edge);
   EXPECT_FALSE(path.reached());
   EXPECT_GT(path.points.back().paddle_N, 0.05);
   EXPECT_LT(path.solves, whole.solves);
+  const PathResult finished = way.finish(state);
+  EXPECT_TRUE(finished.reached());
+  EXPECT_EQ(finished.thickness, whole.thickness);
+  EXPECT_EQ(finished.points.back().paddle_N, whole.points.back().paddle_N);
+  EXPECT_EQ(finished.iterations, whole.iterations);
+  EXPECT_EQ(plates.thickness(), whole.thickness);
+}
+
+// Every position here takes an iteration, so that the path ends after the first one that uses up the limit.
+TEST(CompressionPath, EndsAfterTheIterationsThatAreAllowed) {
+  QuadraticBody body(24, 11);
+  PlatePair plates = plates_at(-20, 20, 15);
+  ActiveSet contact = body.active_set();
+  State state = body.start();
+  PathOptions options;
+  options.most_iterations = 3;
+  const PathResult path = close(plates, contact, state, {TargetKind::thickness, 10}, options);
+  EXPECT_EQ(path.end, PathEnd::cost_limit);
+  EXPECT_GT(path.thickness, 10);
+  EXPECT_FALSE(path.points.empty());
 }
 
 // A penalty that sets in after part of the way, `stiffer` times as stiff as the tangent knows.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The way of the plates, from Path::follow downwards:
+// The way of the plates, from ClosingPath::Way::follow downwards:
 //
 //   close_plates   steps until a target is passed, on loosely solved states (path_tolerance)
 //     try_step       one position; a step that fails is halved, one that is easy is lengthened
@@ -80,26 +80,30 @@ class Bracket {
   double low_weight_ = 0, high_weight_ = 0;
 };
 
-class Path {
+}  // namespace
+
+class ClosingPath::Way {
  public:
-  Path(ContactSolver& solver, PlatePair& plates, const CompressionTarget& target,
-       const PaddleArea& area, const PathOptions& options, Progress& progress)
+  Way(ContactSolver& solver, PlatePair& plates, const CompressionTarget& target, PaddleArea area,
+      PathOptions options, Progress& progress)
       : solver_(solver),
         plates_(plates),
         target_(target),
         stops_{thickness_in(target), others_than_thickness(target), {}, {}},
-        area_(area),
-        options_(options),
+        area_(std::move(area)),
+        options_(std::move(options)),
         progress_(progress),
         start_thickness_(plates.thickness()),
-        tolerance_(options.path_tolerance) {
+        tolerance_(options_.path_tolerance) {
     add_corners();
   }
 
   PathResult follow(State& state);
+  PathResult finish(State& state);
 
  private:
   // The way.
+  void settle_or_repeat();
   void add_corners();
   bool solve_start(const State& state);
   PathEnd close_plates();
@@ -143,8 +147,8 @@ class Path {
   PlatePair& plates_;
   CompressionTarget target_;
   PathStops stops_;
-  const PaddleArea& area_;
-  const PathOptions& options_;
+  PaddleArea area_;
+  PathOptions options_;
   Progress& progress_;
   double start_thickness_;
   double tolerance_;  // of the states on the way
@@ -154,21 +158,35 @@ class Path {
   PathResult result_;
 };
 
-PathResult Path::follow(State& state) {
+PathResult ClosingPath::Way::follow(State& state) {
   if (solve_start(state)) {
     result_.end = close_plates();
-    if (result_.end == PathEnd::on_edge) return conclude(state);
-    if (!settle() && !result_.points.empty()) {
-      tolerance_ = options_.tolerance;
-      result_.end = close_plates();
-      if (!settle()) result_.end = PathEnd::no_equilibrium;
-    }
+    if (result_.end != PathEnd::on_edge) settle_or_repeat();
   }
   return conclude(state);
 }
 
+PathResult ClosingPath::Way::finish(State& state) {
+  options_.most_on_edge = std::numeric_limits<double>::infinity();
+  Waypoint beyond = trail_.here();
+  const CompressionTarget* target = passed(beyond.point);
+  trail_.step_back();
+  result_.end = end_at(*target, std::move(beyond));
+  settle_or_repeat();
+  return conclude(state);
+}
+
+/// The last state accurately; if that shows that the loosely solved states were misleading, the way from
+/// the last accurate one on.
+void ClosingPath::Way::settle_or_repeat() {
+  if (settle() || result_.points.empty()) return;
+  tolerance_ = options_.tolerance;
+  result_.end = close_plates();
+  if (!settle()) result_.end = PathEnd::no_equilibrium;
+}
+
 /// A corner lies on the way of the thickness, and on that of each control.
-void Path::add_corners() {
+void ClosingPath::Way::add_corners() {
   for (const double way : options_.corners) {
     if (stops_.end) {
       const double initial = plates_.closing_range;
@@ -183,7 +201,7 @@ void Path::add_corners() {
 
 /// The state from which the plates start: without contact, or the end of an earlier path. The trail
 /// begins at `state` itself, where the path ends if there is no equilibrium at its first position.
-bool Path::solve_start(const State& state) {
+bool ClosingPath::Way::solve_start(const State& state) {
   trail_.begin({state, solver_.memory(), plates_.thickness(), {}, 0, plates_.moved, state});
   std::optional<Waypoint> start = solve_at(
       plates_.thickness(), {state, solver_.memory(), plates_.moved}, 0, options_.path_tolerance);
@@ -194,11 +212,12 @@ bool Path::solve_start(const State& state) {
 }
 
 /// Closes the plates step by step, until a target is passed or no step is possible any more.
-PathEnd Path::close_plates() {
+PathEnd ClosingPath::Way::close_plates() {
   StepLength step(options_.first_step > 0 ? options_.first_step : longest_step(),
                   options_.shortest_step);
   result_.jump.reset();
   while (result_.solves < options_.most_solves) {
+    if (result_.iterations >= options_.most_iterations) return PathEnd::cost_limit;
     const Waypoint& here = trail_.here();
     if (stops_.end && here.thickness == *stops_.end) return end_at_thickness();
     step.limit(longest_step());
@@ -237,7 +256,7 @@ PathEnd Path::close_plates() {
   return PathEnd::solve_limit;
 }
 
-std::optional<Waypoint> Path::try_step(double thickness, const StepLength& step) {
+std::optional<Waypoint> ClosingPath::Way::try_step(double thickness, const StepLength& step) {
   const Waypoint& here = trail_.here();
   Guess guess =
       extrapolate(here, step.distrusts_extrapolation() ? nullptr : trail_.before(), thickness);
@@ -253,13 +272,13 @@ std::optional<Waypoint> Path::try_step(double thickness, const StepLength& step)
 
 /// Where even the shortest step passes a target before the path may end: the same position with the
 /// load of the end of the way.
-std::optional<Waypoint> Path::let_go_at(const Waypoint& reached) {
+std::optional<Waypoint> ClosingPath::Way::let_go_at(const Waypoint& reached) {
   return solve_at(reached.thickness, {reached.state, reached.memory, reached.plates_moved},
                   std::max(reached.way, options_.may_end_from), tolerance_);
 }
 
 /// The part of the way at which a position is expected. It never decreases.
-double Path::expected_way(double thickness) const {
+double ClosingPath::Way::expected_way(double thickness) const {
   if (!options_.prepare) return 0;
   const Waypoint& here = trail_.here();
   const PathPoint* before = trail_.before() != nullptr ? &trail_.before()->point : nullptr;
@@ -269,7 +288,7 @@ double Path::expected_way(double thickness) const {
 
 /// Returns, once, to where abandoning a position first changed the path: short steps may follow a
 /// branch that ends where a long step passes to the next branch.
-bool Path::go_back_with_patience() {
+bool ClosingPath::Way::go_back_with_patience() {
   if (patient_ || !first_haste_) return false;
   patient_ = true;
   trail_.restart_at(*first_haste_);
@@ -280,7 +299,7 @@ bool Path::go_back_with_patience() {
 /// Solves the last state accurately. Close to where a path ends or slips, a loosely solved state
 /// may not be an equilibrium: then returns false, and the path ends at the last state with an
 /// accurate solution; if there is none, no points are left.
-bool Path::settle() {
+bool ClosingPath::Way::settle() {
   for (bool last = true;; last = false) {
     if (std::optional<Waypoint> sharp = sharpened(options_.tolerance)) {
       trail_.sharpen(std::move(*sharp));
@@ -293,7 +312,7 @@ bool Path::settle() {
   }
 }
 
-PathResult Path::conclude(State& state) {
+PathResult ClosingPath::Way::conclude(State& state) {
   if (result_.points.empty()) result_.end = PathEnd::no_equilibrium;
   if (result_.reached()) result_.failed_trial.resize(0);
   const Waypoint& here = trail_.here();
@@ -304,11 +323,11 @@ PathResult Path::conclude(State& state) {
   result_.thickness = here.thickness;
   result_.way = here.way;
   state = here.state;
-  return std::move(result_);
+  return result_;
 }
 
 /// Of the targets passed at a point, the one passed by the most; null before all of them.
-const CompressionTarget* Path::passed(const PathPoint& point) const {
+const CompressionTarget* ClosingPath::Way::passed(const PathPoint& point) const {
   const CompressionTarget* furthest = nullptr;
   double most = 1 + options_.control_tolerance;
   for (const CompressionTarget& control : stops_.controls) {
@@ -319,7 +338,7 @@ const CompressionTarget* Path::passed(const PathPoint& point) const {
 }
 
 /// Ends at the last state, unless its accurate solution lies beyond another target.
-PathEnd Path::end_at_thickness() {
+PathEnd ClosingPath::Way::end_at_thickness() {
   std::optional<Waypoint> sharp;
   if (!stops_.controls.empty()) sharp = sharpened(sought());
   if (sharp) {
@@ -333,7 +352,7 @@ PathEnd Path::end_at_thickness() {
 
 /// Seeks the end between the last state and one beyond the target; takes the latter if the path
 /// could not end earlier.
-PathEnd Path::end_at(const CompressionTarget& target, Waypoint beyond) {
+PathEnd ClosingPath::Way::end_at(const CompressionTarget& target, Waypoint beyond) {
   if (sharpen_up_to(target, beyond) || let_go_before(target, beyond))
     return search_end(target, std::move(beyond));
   result_.met = target;
@@ -345,7 +364,7 @@ PathEnd Path::end_at(const CompressionTarget& target, Waypoint beyond) {
 /// Solves the last state accurately, and those before it until one lies before the target; `beyond`
 /// becomes the first accurate one beyond it. Returns false if there is none before the target at
 /// which the path may end.
-bool Path::sharpen_up_to(const CompressionTarget& target, Waypoint& beyond) {
+bool ClosingPath::Way::sharpen_up_to(const CompressionTarget& target, Waypoint& beyond) {
   const auto is_before = [&](const Waypoint& at) {
     return measure(at.point, target) < target.value;
   };
@@ -364,7 +383,7 @@ bool Path::sharpen_up_to(const CompressionTarget& target, Waypoint& beyond) {
 
 /// Where the hand still held the last states: lets go at the latest of them that is then before the
 /// target. Returns false if there is none.
-bool Path::let_go_before(const CompressionTarget& target, Waypoint& beyond) {
+bool ClosingPath::Way::let_go_before(const CompressionTarget& target, Waypoint& beyond) {
   do {
     const Waypoint& here = trail_.here();
     std::optional<Waypoint> free = solve_again(std::max(here.way, options_.may_end_from), sought());
@@ -378,7 +397,7 @@ bool Path::let_go_before(const CompressionTarget& target, Waypoint& beyond) {
   return false;
 }
 
-PathEnd Path::search_end(const CompressionTarget& target, Waypoint beyond) {
+PathEnd ClosingPath::Way::search_end(const CompressionTarget& target, Waypoint beyond) {
   Bracket bracket(trail_.here(), std::move(beyond), target);
   for (int k = 0; k < most_in_bracket; ++k) {
     if (bracket.meets_target(options_.control_tolerance) || bracket.is_narrow())
@@ -395,7 +414,7 @@ PathEnd Path::search_end(const CompressionTarget& target, Waypoint beyond) {
 }
 
 /// The equilibrium where the target is expected, or else nearer to the end before it.
-std::optional<Waypoint> Path::solve_within(const Bracket& bracket) {
+std::optional<Waypoint> ClosingPath::Way::solve_within(const Bracket& bracket) {
   double thickness = bracket.thickness();
   for (int k = 0; k <= most_halvings_in_bracket; ++k) {
     std::optional<Waypoint> found =
@@ -407,7 +426,7 @@ std::optional<Waypoint> Path::solve_within(const Bracket& bracket) {
 }
 
 /// Ends at the better end of the bracket. If that lies beyond another target, the end moves there.
-PathEnd Path::end_in(const Bracket& bracket, const CompressionTarget& target) {
+PathEnd ClosingPath::Way::end_in(const Bracket& bracket, const CompressionTarget& target) {
   const Waypoint& low = bracket.low();
   const Waypoint& best = bracket.best();
   const bool met = bracket.meets_target(options_.control_tolerance);
@@ -425,8 +444,8 @@ PathEnd Path::end_in(const Bracket& bracket, const CompressionTarget& target) {
 }
 
 /// The equilibrium with the plates at a thickness, if it is found.
-std::optional<Waypoint> Path::solve_at(double thickness, const Guess& guess, double way,
-                                       double tolerance) {
+std::optional<Waypoint> ClosingPath::Way::solve_at(double thickness, const Guess& guess, double way,
+                                                   double tolerance) {
   plates_.moved = guess.plates_moved;
   plates_.close_to(thickness);
   if (options_.prepare) options_.prepare(way);
@@ -448,13 +467,13 @@ std::optional<Waypoint> Path::solve_at(double thickness, const Guess& guess, dou
                   guess.plates_moved, std::move(moved)};
 }
 
-std::optional<Waypoint> Path::sharpened(double tolerance) {
+std::optional<Waypoint> ClosingPath::Way::sharpened(double tolerance) {
   return solve_again(trail_.here().way, tolerance);
 }
 
 /// The last state, solved again at this part of the way and to this residual. It replaces its point
 /// on the path.
-std::optional<Waypoint> Path::solve_again(double way, double tolerance) {
+std::optional<Waypoint> ClosingPath::Way::solve_again(double way, double tolerance) {
   const Waypoint& here = trail_.here();
   std::optional<Waypoint> sharp =
       solve_at(here.thickness, {here.state, here.memory, here.plates_moved}, way, tolerance);
@@ -466,7 +485,7 @@ std::optional<Waypoint> Path::solve_again(double way, double tolerance) {
   return sharp;
 }
 
-void Path::record_iterations(const ContactStep& step, double thickness) {
+void ClosingPath::Way::record_iterations(const ContactStep& step, double thickness) {
   ++result_.solves;
   result_.iterations += int(step.iterations.size());
   result_.indefinite += step.indefinite;
@@ -479,7 +498,7 @@ void Path::record_iterations(const ContactStep& step, double thickness) {
   }
 }
 
-void Path::record_failure(const ContactStep& step, double thickness) {
+void ClosingPath::Way::record_failure(const ContactStep& step, double thickness) {
   ++result_.failures;
   if (step.hurried && !first_haste_) first_haste_ = trail_.here();
   result_.last_failure = step.stop;
@@ -487,26 +506,26 @@ void Path::record_failure(const ContactStep& step, double thickness) {
   result_.failed_trial = step.failed_trial;
 }
 
-bool Path::step_back() {
+bool ClosingPath::Way::step_back() {
   if (!trail_.step_back()) return false;
   drop_points_beyond_here();
   return true;
 }
 
-void Path::drop_points_beyond_here() {
+void ClosingPath::Way::drop_points_beyond_here() {
   std::vector<PathPoint>& points = result_.points;
   while (!points.empty() && points.back().thickness != trail_.here().thickness) points.pop_back();
 }
 
 /// Keeps a position if asked for, and forgets those beyond it, from which the path went back.
-void Path::keep(const Waypoint& at) {
+void ClosingPath::Way::keep(const Waypoint& at) {
   if (!options_.keep) return;
   std::vector<Waypoint>& kept = result_.kept;
   while (!kept.empty() && kept.back().thickness <= at.thickness) kept.pop_back();
   kept.push_back(at);
 }
 
-void Path::tell(const PathPoint& point) const {
+void ClosingPath::Way::tell(const PathPoint& point) const {
   double fraction = -1;
   if (stops_.end && start_thickness_ != *stops_.end)
     fraction = (start_thickness_ - point.thickness) / (start_thickness_ - *stops_.end);
@@ -520,7 +539,7 @@ void Path::tell(const PathPoint& point) const {
 }
 
 /// From the present position, mm.
-double Path::longest_step() const {
+double ClosingPath::Way::longest_step() const {
   if (options_.longest_step > 0) return options_.longest_step;
   const double way = trail_.here().way;
   const bool slipping =
@@ -530,12 +549,25 @@ double Path::longest_step() const {
   return part * plates_.closing_range;
 }
 
-}  // namespace
+ClosingPath::ClosingPath(ContactSolver& solver, PlatePair& plates, const CompressionTarget& target,
+                         PaddleArea area, PathOptions options, Progress& progress)
+    : way_(std::make_unique<Way>(solver, plates, target, std::move(area), std::move(options),
+                                 progress)) {}
+
+ClosingPath::~ClosingPath() = default;
+
+PathResult ClosingPath::follow(State& state) {
+  return way_->follow(state);
+}
+
+PathResult ClosingPath::finish(State& state) {
+  return way_->finish(state);
+}
 
 PathResult follow_path(ContactSolver& solver, PlatePair& plates, State& state,
                        const CompressionTarget& target, const PaddleArea& area,
                        const PathOptions& options, Progress& progress) {
-  return Path(solver, plates, target, area, options, progress).follow(state);
+  return ClosingPath(solver, plates, target, area, options, progress).follow(state);
 }
 
 }  // namespace breast
