@@ -8,6 +8,7 @@ from pathlib import Path
 from ..cases.compression import VIEWS
 from ..errors import BreastError
 from .bounds import ANY, Bound
+from .files import exists
 from .kinds import Request, kind
 from .stage_report import StageReport
 from .table import NO_VALUE, Table, fixed
@@ -42,6 +43,17 @@ def nipple_lines(run: Path) -> tuple[float, float] | None:
     return None if cc is None or mlo is None else (cc, mlo)
 
 
+def _grips(run: Path, view: str) -> bool | None:
+    """Whether the plates grip the breast by its shape in the file of the view; None without a file, or for plates that are not judged."""
+    file = run / f"{view.lower()}.vtkhdf"
+    if not exists(file):
+        return None
+    from ..state_file import read_state
+    from .grip import grip
+    found = grip(read_state(file))
+    return None if found is None else found.grips()
+
+
 def _outside(bound: Bound, report: StageReport) -> bool:
     return bound.missed_by(report.number(bound.key), _ROUNDING if bound.name == "paddle_N" else 0)
 
@@ -49,12 +61,14 @@ def _outside(bound: Bound, report: StageReport) -> bool:
 def views_table(runs: list[Path]) -> Table:
     """One row a view of each run that has one: its numbers, the CC and MLO nipple lines' difference, and which bounds it misses.
 
-    The bounds of docs/methods.md (Target and grip) are applied to the numbers of the report here again, whatever compress itself said.
+    The bounds of docs/methods.md (Target and grip) are applied to the numbers of the report here again, whatever compress itself said,
+    and grips_by_shape is found from the shape of the file alone (grip.grip); where it contradicts the status, it is listed as missed.
     The turn of the plates' edge, at most 15 degrees in CC, is listed as missed too, but no view is refused for it. The last two rows
     are the means of each view, and how many of its rows miss none of the other bounds.
     """
     numbers = [bound.name for bound in (*_BOUNDS, _VOLUME[""], _TURN)]
-    table = Table(["breast", "view", "status", *numbers, "nipple_line_mm", "cc_minus_mlo_mm", "iterations", "cpu_seconds", "missed"])
+    table = Table(["breast", "view", "status", *numbers, "nipple_line_mm", "cc_minus_mlo_mm", "grips_by_shape", "iterations",
+                   "cpu_seconds", "missed"])
     rows: dict[str, list[tuple[StageReport, bool]]] = {"CC": [], "MLO": []}
     for run in runs:
         reports = {view: StageReport.read(run / f"{view.lower()}.json") for view in rows}
@@ -65,10 +79,13 @@ def views_table(runs: list[Path]) -> Table:
                 continue
             bounds = (*_BOUNDS, _VOLUME.get(view, _VOLUME[""]))
             missed = [bound.name for bound in bounds if _outside(bound, report)]
+            grips = _grips(run, view)
+            if (report.text("status"), grips) in {("converged", False), ("not_gripped", True)}:
+                missed.append("grips_by_shape")
             turned = [_TURN.name] if view == "CC" and _outside(_TURN, report) else []
             table.rows.append([run.name, view, report.text("status"),
                                *(fixed(report.number(b.key), b.decimals) for b in (*bounds, _TURN)), fixed(nipple_line(report), 1),
-                               apart, fixed(report.number("newton_iterations"), 0), fixed(report.number("cpu_seconds"), 0),
+                               apart, {None: NO_VALUE, True: "yes", False: "no"}[grips], fixed(report.number("newton_iterations"), 0), fixed(report.number("cpu_seconds"), 0),
                                ", ".join(missed + turned) or "none"])
             rows[view].append((report, not missed))
     for view, found in rows.items():
@@ -83,7 +100,7 @@ def _means(view: str, found: list[tuple[StageReport, bool]]) -> list[str]:
         values = [value for value in each if value is not None]
         return fixed(sum(values) / len(values), decimals) if values else NO_VALUE
     met = sum(good for _, good in found)
-    return ["mean", view, NO_VALUE, *(mean(b.key, b.decimals) for b in (*_BOUNDS, _VOLUME[""], _TURN)), mean(nipple_line, 1), NO_VALUE,
+    return ["mean", view, NO_VALUE, *(mean(b.key, b.decimals) for b in (*_BOUNDS, _VOLUME[""], _TURN)), mean(nipple_line, 1), NO_VALUE, NO_VALUE,
             mean("newton_iterations", 0), mean("cpu_seconds", 0), f"{met} of {len(found)} miss none"]
 
 
