@@ -74,7 +74,8 @@ DicomFolder find_images(const fs::path& folder) {
       }
     } catch (const Error& error) {
       // What has no pixels is passed over whether it is whole or not.
-      const std::string sop_class = text_of(object.header, "0008|0016");
+      std::string sop_class = text_of(object.header, "0008|0016");
+      if (sop_class.empty()) sop_class = text_of(object.header, "0002|0002");
       if (!sop_class.empty() && !is_image_class(sop_class)) {
         ++found.without_pixels[object_kind(sop_class)];
         continue;
