@@ -69,6 +69,7 @@ TEST(DicomContrasts, AreThoseOfTheTypeOrOfTheName) {
       {"ORIGINAL\\PRIMARY\\M\\ND", "t1_tra post op", "T1"},
       {"ORIGINAL\\PRIMARY\\M\\ND", "T1 map", "map of a quantity"},
       {"ORIGINAL\\PRIMARY\\M\\ND", "eADC", "diffusion"},
+      {"DERIVED\\PRIMARY\\T1 MAP\\MFSPLIT", "", "map of a quantity"},
       {"DERIVED\\SECONDARY", "t1 dyn Subtraktion", "subtraction"}};
   for (const Case& one : cases)
     EXPECT_EQ(contrast_named(one.type, one.description), one.contrast)

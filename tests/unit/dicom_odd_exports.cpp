@@ -184,6 +184,24 @@ TEST(DicomOddExports, APictureOfTheScreenAmongTheSlicesIsNoneOfThem) {
   EXPECT_EQ(outcome(folder.path(), volume), "read");
 }
 
+// It states its class in the meta information alone.
+TEST(DicomOddExports, ADirectoryOfFilesUnderAnotherNameIsCalledSo) {
+  const ScratchFolder folder;
+  write_slices(folder.path(), "a", ".dcm", scan_of(0), {}, {});
+  std::string directory = DatasetBuilder()
+                              .text(0x00080016, "UI", "1.2.840.10008.1.3.10")
+                              .text(0x00080018, "UI", "2.25.3")
+                              .file();
+  directory.resize(directory.find(std::string("\x08\0\x16\0UI", 6)));
+  std::ofstream(folder / "index.dcm", std::ios::binary)
+      << directory << DatasetBuilder().text(0x00041130, "CS", "DISC").bytes();
+  VolumeSource source;
+  read_volume(folder.path(), {}, &source);
+  ASSERT_EQ(source.remarks.size(), 1u);
+  EXPECT_NE(source.remarks.front().find("directory of files (1)"), std::string::npos)
+      << source.remarks.front();
+}
+
 // Also where their contrasts differ: the better one may be of another woman, or years old.
 TEST(DicomOddExports, SeveralWomenOrExaminationsAreNotChosenBetween) {
   for (const bool of_one_woman : {true, false}) {

@@ -40,6 +40,10 @@ class Words {
     return std::any_of(words_.begin(), words_.end(),
                        [&](const std::string& word) { return is_one(word, names); });
   }
+  bool any_ends(std::string_view ending) const {
+    return std::any_of(words_.begin(), words_.end(),
+                       [&](const std::string& word) { return word.ends_with(ending); });
+  }
   /// Whether one of `names` occurs that none of `before` precedes and none of `after` follows.
   bool any_but(const Names& names, const Names& before, const Names& after) const {
     for (std::size_t n = 0; n < words_.size(); ++n) {
@@ -139,8 +143,8 @@ ScanContrast derived_kind(const std::function<std::string(const char*)>& value, 
   if (is_part_of_signal(value("0008|9208"))) return ScanContrast::phase;
   if (type.any({"sub", "subtraction", "subtracted"})) return ScanContrast::subtraction;
   if (type.any({"diffusion", "adc", "tracew", "trace"})) return ScanContrast::diffusion;
-  if (type.any({"ff", "fat_fraction", "water_fraction", "r2_star", "r2_star_map", "t2_star",
-                "t2_star_map", "b0_map", "field_map", "quantity"}))
+  if (type.any({"ff", "fat_fraction", "water_fraction", "r2_star", "t2_star", "quantity"}) ||
+      type.any_ends("map"))
     return ScanContrast::map;
   if (type.any({"w", "water", "dixon_water"})) return ScanContrast::water;
   if (type.any({"f", "fat", "dixon_fat"})) return ScanContrast::fat;
