@@ -184,6 +184,30 @@ TEST(DicomOddExports, APictureOfTheScreenAmongTheSlicesIsNoneOfThem) {
   EXPECT_EQ(outcome(folder.path(), volume), "read");
 }
 
+// The first of them would be taken for the slice.
+TEST(DicomOddExports, MoreFramesThanStatedAreRefused) {
+  const ShortVolume volume = scan_of(0);
+  for (const std::size_t padding : {10, 360}) {
+    const ScratchFolder folder;
+    for (int k = 0; k < volume.grid.size[2]; ++k) {
+      std::vector<std::int16_t> values = slice_values(volume, k);
+      values.resize(values.size() + padding);
+      DatasetBuilder set = series_elements(volume.grid, {}, "1.2.840.10008.5.1.4.1.1.4",
+                                           "frames " + std::to_string(k));
+      set.text(0x00200032, "DS", position_of(volume.grid, k, {}))
+          .text(0x00200037, "DS", axes_of(volume.grid))
+          .text(0x00280030, "DS", "4.5\\4");
+      write_object(folder / (std::to_string(k) + ".dcm"), set, values, 20, 18, 1, {});
+    }
+    const std::string says = outcome(folder.path(), volume);
+    if (padding < 360) {
+      EXPECT_EQ(says, "read");
+    } else {
+      expect_refusal(says, "more frames than it states");
+    }
+  }
+}
+
 // It states its class in the meta information alone.
 TEST(DicomOddExports, ADirectoryOfFilesUnderAnotherNameIsCalledSo) {
   const ScratchFolder folder;

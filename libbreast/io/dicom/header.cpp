@@ -340,7 +340,7 @@ void check_syntax(const fs::path& file, const std::string& syntax) {
 }
 
 /// Pixel data are encapsulated if, and only if, the transfer syntax says so; otherwise they must be as
-/// long as rows, columns, frames and bits say.
+/// long as rows, columns, frames and bits say; some programs add a little.
 void check_pixel_bytes(const fs::path& file, const DicomObject& object) {
   const auto number = [&](const char* key, double fallback) {
     const std::string text = text_of(object.header, key);
@@ -356,6 +356,11 @@ void check_pixel_bytes(const fs::path& file, const DicomObject& object) {
   if (!(needed > 0) || double(pixels.bytes) < needed) {
     throw input_error(file.string(), ": pixel data of ", pixels.bytes,
                       " bytes, rows and columns need ", needed);
+  }
+  if (double(pixels.bytes) >= 2 * needed && double(pixels.bytes) > needed + 1) {
+    throw input_error(file.string(), ": pixel data of ", pixels.bytes,
+                      " bytes, but rows, columns and frames need ", needed,
+                      ": it holds more frames than it states, or larger ones");
   }
 }
 
