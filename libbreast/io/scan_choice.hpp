@@ -20,7 +20,7 @@ struct ScanChoice {
 inline constexpr const char* series_rule =
     "of the series that are volumes and no localisers, those come first that extend over at least 60 mm along "
     "every axis, then those with the better contrast by their header (T1, in phase, not stated, T1 "
-    "fat-suppressed, water, T2, others), then the earlier time point, then those with voxels smaller by "
-    "5 %; of two that are still equal one must be asked for by its number";
+    "fat-suppressed, water, T2, others), then what is no secondary image, then the earlier time point, then "
+    "those with voxels smaller by 5 %; of two that are still equal one must be asked for by its number";
 
 }  // namespace breast

@@ -50,7 +50,27 @@ TEST(DicomContrasts, AreThoseOfTheTypeOrOfTheName) {
       {"ORIGINAL\\PRIMARY\\OTHER", "WATER: Ax VIBRANT", "water"},
       {"ORIGINAL\\PRIMARY\\OTHER", "Ax T1 in-phase", "in phase"},
       {"ORIGINAL\\PRIMARY\\OTHER", "Ax T1 out of phase", "opposed phase"},
-      {"ORIGINAL\\PRIMARY\\M\\ND", "t1_tra dynamic in 5 phases", "T1"}};
+      {"ORIGINAL\\PRIMARY\\M\\ND", "t1_tra dynamic in 5 phases", "T1"},
+      {"ORIGINAL\\PRIMARY\\M\\ND", "t1 tra dyn phase 1 in 60 s", "T1"},
+      // The letter of "w/o" is no water image, and what it takes back is the word after it.
+      {"ORIGINAL\\PRIMARY\\OTHER", "AX T1 W/O FS", "T1"},
+      {"ORIGINAL\\PRIMARY\\OTHER", "AXIAL T1 W/O FAT SAT", "T1"},
+      {"ORIGINAL\\PRIMARY\\OTHER", "AX T1 W/O CONTRAST", "T1"},
+      {"ORIGINAL\\PRIMARY\\OTHER", "AX T1 W/ FS", "T1 fat-suppressed"},
+      {"ORIGINAL\\PRIMARY\\OTHER", "AX T1 FS W/O CONTRAST", "T1 fat-suppressed"},
+      {"ORIGINAL\\PRIMARY\\OTHER", "AX T1 W/O GAD FS", "T1 fat-suppressed"},
+      {"ORIGINAL\\PRIMARY\\OTHER", "T1 FS no contrast", "T1 fat-suppressed"},
+      {"ORIGINAL\\PRIMARY\\OTHER", "VIBRANT fat suppressed pre", "T1 fat-suppressed"},
+      {"ORIGINAL\\PRIMARY\\M\\ND", "t1_fl3d_tra_we", "T1 fat-suppressed"},
+      {"ORIGINAL\\PRIMARY\\M\\ND", "T1 ohne FS", "T1"},
+      {"ORIGINAL\\PRIMARY\\M\\ND", "T1 sans fat sat", "T1"},
+      {"ORIGINAL\\PRIMARY\\M\\ND", "T1 non-fat-sat", "T1"},
+      {"ORIGINAL\\PRIMARY\\M\\ND", "T1 W TSE", "T1"},
+      {"ORIGINAL\\PRIMARY\\M\\ND", "t1_tra post op", "T1"},
+      {"ORIGINAL\\PRIMARY\\M\\ND", "T1 map", "map of a quantity"},
+      {"ORIGINAL\\PRIMARY\\M\\ND", "eADC", "diffusion"},
+      {"DERIVED\\PRIMARY\\T1 MAP\\MFSPLIT", "", "map of a quantity"},
+      {"DERIVED\\SECONDARY", "t1 dyn Subtraktion", "subtraction"}};
   for (const Case& one : cases)
     EXPECT_EQ(contrast_named(one.type, one.description), one.contrast)
         << one.type << " " << one.description;

@@ -7,6 +7,7 @@
 #include <array>
 #include <bit>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <sstream>
@@ -35,9 +36,9 @@ constexpr std::array<std::uint32_t, 17> kept_sequences{
     0x00289110, 0x00289145, 0x00209111, 0x00189226, 0x00189114, 0x00189112,
     0x00189115, 0x00189117, 0x00209071, 0x00620002, 0x0062000a};
 // Elements that are binary numbers; others, such as Rescale Slope, are text.
-constexpr std::array<std::uint32_t, 12> shorts{0x00620004, 0x0062000b, 0x0062000e, 0x00280002,
-                                               0x00280010, 0x00280011, 0x00280100, 0x00280101,
-                                               0x00280102, 0x00280103, 0x00280120, 0x00209156};
+constexpr std::array<std::uint32_t, 13> shorts{
+    0x00620004, 0x0062000b, 0x0062000e, 0x00280002, 0x00280010, 0x00280011, 0x00280100,
+    0x00280101, 0x00280102, 0x00280103, 0x00280120, 0x00209156, 0x0043102f};
 constexpr std::array<std::uint32_t, 1> longs{0x00209128};
 constexpr std::array<std::uint32_t, 3> doubles{0x00189082, 0x00209153, 0x00189087};
 
@@ -102,6 +103,11 @@ class Walker {
     position_ = start;
     big_endian_ = object_.big_endian;
     while (position_ < size_ && !object_.pixels) element(explicit_vr, 0, true);
+  }
+
+  /// Without transfer syntax: whether the first element, of group 8, is big-endian.
+  bool begins_big_endian(std::uint64_t start) {
+    return start + 2 <= size_ && bytes_at(start, 2) == std::string("\0\x08", 2);
   }
 
   /// Without transfer syntax: whether the first element states the kind of its value.
@@ -211,7 +217,7 @@ class Walker {
     const std::string name = explicit_vr ? bytes_at(position_, 2) : std::string();
     const std::uint32_t length = explicit_vr ? length_of(tag, name) : take<std::uint32_t>();
     const bool explicit_items = explicit_vr && name != "UN";
-    if (tag == pixel_data && depth == 0) return pixels(length);
+    if (tag == pixel_data && depth == 0) return pixels(length, name == "OW");
     if ((tag == float_pixels || tag == double_pixels) && depth == 0)
       throw input_error(file_.string(),
                         ": its pixels are floating-point numbers, which are not "
@@ -272,14 +278,14 @@ class Walker {
   }
 
   /// Pixel data end the walk. Fragments are passed one by one, to know that the last is there.
-  void pixels(std::uint32_t length) {
+  void pixels(std::uint32_t length, bool words) {
     const std::uint64_t start = position_;
     if (length == undefined_length) {
       items(true, 1, length, false);
-      object_.pixels = DicomPixels{start, position_ - start, true};
+      object_.pixels = DicomPixels{start, position_ - start, true, false};
     } else {
       skip(length);
-      object_.pixels = DicomPixels{start, length, false};
+      object_.pixels = DicomPixels{start, length, false, words};
     }
   }
 
@@ -314,8 +320,27 @@ bool is_native(const std::string& syntax) {
          syntax == explicit_big_endian || syntax == deflated_little_endian;
 }
 
+/// Refuses what only programs of one maker read, whose elements need not lie as the standard says, and
+/// objects whose pixels are fetched from a server (PS3.5 A.6, A.7).
+void check_syntax(const fs::path& file, const std::string& syntax) {
+  constexpr std::string_view standard = "1.2.840.10008.1.2";
+  constexpr std::array<std::string_view, 4> on_server{
+      "1.2.840.10008.1.2.4.94", "1.2.840.10008.1.2.4.95", "1.2.840.10008.1.2.4.204",
+      "1.2.840.10008.1.2.4.205"};
+  if (!syntax.starts_with(standard)) {
+    throw input_error(file.string(), ": transfer syntax ", syntax.substr(0, 64),
+                      " is no standard one: export the series as Explicit VR Little Endian");
+  }
+  if (std::find(on_server.begin(), on_server.end(), syntax) != on_server.end()) {
+    throw input_error(file.string(),
+                      ": names a server for its pixels instead of holding them "
+                      "(transfer syntax ",
+                      syntax, "): export the series with its pixels");
+  }
+}
+
 /// Pixel data are encapsulated if, and only if, the transfer syntax says so; otherwise they must be as
-/// long as rows, columns, frames and bits say.
+/// long as rows, columns, frames and bits say; some programs add a little.
 void check_pixel_bytes(const fs::path& file, const DicomObject& object) {
   const auto number = [&](const char* key, double fallback) {
     const std::string text = text_of(object.header, key);
@@ -332,6 +357,11 @@ void check_pixel_bytes(const fs::path& file, const DicomObject& object) {
     throw input_error(file.string(), ": pixel data of ", pixels.bytes,
                       " bytes, rows and columns need ", needed);
   }
+  if (double(pixels.bytes) >= 2 * needed && double(pixels.bytes) > needed + 1) {
+    throw input_error(file.string(), ": pixel data of ", pixels.bytes,
+                      " bytes, but rows, columns and frames need ", needed,
+                      ": it holds more frames than it states, or larger ones");
+  }
 }
 
 /// Where the elements of a file begin: after the preamble, or at once in one without it, which is known
@@ -347,8 +377,9 @@ std::optional<std::uint64_t> start_of(std::istream& in) {
   const int group = byte(0) + 256 * byte(1), element = byte(2) + 256 * byte(3);
   const bool is_explicit = is_kind(std::string_view(head.data() + 4, 2));
   const bool short_implicit = byte(5) == 0 && byte(6) == 0 && byte(7) == 0;
+  const bool begins_big = byte(0) == 0 && byte(1) == 8 && byte(2) == 0 && byte(3) <= 0x18;
   const bool begins = (group == 8 && element <= 0x18 && (is_explicit || short_implicit)) ||
-                      (group == 2 && element <= 0x10 && is_explicit);
+                      (group == 2 && element <= 0x10 && is_explicit) || (begins_big && is_explicit);
   return begins ? std::optional<std::uint64_t>(0) : std::nullopt;
 }
 
@@ -368,8 +399,11 @@ bool read_dicom_object(const fs::path& file, DicomObject& object) {
   const std::uint64_t set = object.set = head.walk_meta(*start);
   object.syntax = text_of(object.header, "0002|0010");
   if (object.syntax.empty()) {
-    object.syntax = head.begins_explicit(set) ? explicit_little_endian : implicit_little_endian;
+    object.syntax = !head.begins_explicit(set)    ? implicit_little_endian
+                    : head.begins_big_endian(set) ? explicit_big_endian
+                                                  : explicit_little_endian;
   }
+  check_syntax(file, object.syntax);
   object.big_endian = object.syntax == explicit_big_endian;
   object.deflated = object.syntax == deflated_little_endian;
   const bool explicit_vr = object.syntax != implicit_little_endian;
@@ -414,6 +448,10 @@ std::string pixel_bytes(const fs::path& file, const DicomObject& object) {
   in.seekg(std::streamoff(pixels.position));
   if (!in.read(bytes.data(), std::streamsize(bytes.size())))
     throw input_error(file.string(), ": its pixel data can no longer be read");
+  const bool are_words = std::atoi(text_of(object.header, "0028|0100").c_str()) > 8;
+  if (object.big_endian && pixels.words && !are_words) {  // two pixels a word, the second one first
+    for (std::size_t n = 0; n + 1 < bytes.size(); n += 2) std::swap(bytes[n], bytes[n + 1]);
+  }
   return bytes;
 }
 

@@ -20,6 +20,7 @@ using DicomHeader = std::map<std::string, std::string>;
 struct DicomPixels {
   std::uint64_t position = 0, bytes = 0;
   bool encapsulated = false;  ///< bytes are then those of all fragments with their heads
+  bool words = false;         ///< of 16 bits (OW), also where a pixel has 8 or 1
 };
 
 /// What a DICOM file states up to its pixel data. What follows them is not read.
@@ -40,7 +41,8 @@ bool read_dicom_object(const std::filesystem::path& file, DicomObject& object);
 /// The same for the header of an image: throws Error (input) also for an object without pixels.
 bool read_dicom_header(const std::filesystem::path& file, DicomHeader& header);
 
-/// The bytes of the pixel data as the file holds them.
+/// The bytes of the pixel data as the file holds them; those of pixels of at most 8 bits in the order of the pixels,
+/// also where big-endian words hold them.
 std::string pixel_bytes(const std::filesystem::path& file, const DicomObject& object);
 
 /// The value of an element, or "" if the header lacks it.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <initializer_list>
 #include <set>
 #include <string_view>
 #include <vector>
@@ -152,20 +151,33 @@ std::optional<T> the_only(const std::set<T>& all) {
   return all.size() == 1 ? std::optional(*all.begin()) : std::nullopt;
 }
 
-/// Whether a text that describes the image, its view or the paddle has one of these words.
-bool is_described(const MammogramFields& fields, std::initializer_list<const char*> wanted,
-                  bool implant = false) {
+/// The words of the texts that describe the image, its view and the paddle.
+std::vector<std::string> described_by(const MammogramFields& fields) {
   std::vector<std::string> words = capital_words(fields.text("0018|5101"));
-  for (const Place& place : texts) {
-    for (std::string& word : capital_words(fields.text(place.key)))
-      words.push_back(std::move(word));
-  }
-  for (std::string& word : capital_words(fields.text(paddle_description)))
-    words.push_back(std::move(word));
-  return std::any_of(words.begin(), words.end(), [&](const std::string& word) {
-    return (implant && view_word(word).implant) ||
-           std::find(wanted.begin(), wanted.end(), word) != wanted.end();
-  });
+  const auto add = [&](const char* key) {
+    for (std::string& word : capital_words(fields.text(key))) words.push_back(std::move(word));
+  };
+  for (const Place& place : texts) add(place.key);
+  add(paddle_description);
+  return words;
+}
+
+/// Whether one of them begins so: "SPOTCOMP" and "Spotkompression" are spot compressions.
+bool is_described(const MammogramFields& fields, std::string_view start) {
+  const std::vector<std::string> words = described_by(fields);
+  return std::any_of(words.begin(), words.end(),
+                     [&](const std::string& word) { return word.starts_with(start); });
+}
+
+bool is_named(const MammogramFields& fields, std::string_view wanted) {
+  const std::vector<std::string> words = described_by(fields);
+  return std::find(words.begin(), words.end(), wanted) != words.end();
+}
+
+bool is_described_as_implant(const MammogramFields& fields) {
+  const std::vector<std::string> words = described_by(fields);
+  return std::any_of(words.begin(), words.end(),
+                     [](const std::string& word) { return view_word(word).implant; });
 }
 
 /// The view of View Code Sequence, if it is stated.
@@ -229,11 +241,35 @@ View stated_view(MammogramFields& fields) {
   return *described;
 }
 
+namespace {
+
+/// "RCC" as the view of a left breast is a contradiction; a text of the series may be that of another image.
+void check_side(MammogramFields& fields, Side side) {
+  const std::optional<Side> positioned = side_in_text(fields.text("0018|5101"));
+  if (positioned && *positioned != side) {
+    throw input_error(fields.where(), ": View Position is of the ", side_name(*positioned),
+                      " breast, but the laterality is that of the ", side_name(side),
+                      "; correct the one that is wrong");
+  }
+  for (const Place& place : texts) {
+    const std::optional<Side> described = side_in_text(fields.text(place.key));
+    if (!described || *described == side) continue;
+    fields.remark(message("the text of ", place.name, " names the ", side_name(*described),
+                          " breast, but the laterality is that of the ", side_name(side),
+                          ", which is taken"));
+  }
+}
+
+}  // namespace
+
 Side stated_side(MammogramFields& fields) {
   std::string side = fields.text("0020|0062");
   if (side.empty()) side = fields.text("0020|0060");
-  if (side == "L") return Side::left;
-  if (side == "R") return Side::right;
+  if (side == "L" || side == "R") {
+    const Side stated = side == "L" ? Side::left : Side::right;
+    check_side(fields, stated);
+    return stated;
+  }
   const std::optional<Side> described =
       side.empty() ? from_texts(fields, "the side", side_in_text) : std::nullopt;
   if (!described) throw fields.missing("image laterality", side, "L or R");
@@ -241,13 +277,13 @@ Side stated_side(MammogramFields& fields) {
 }
 
 void refuse_what_is_not_simulated(MammogramFields& fields) {
-  if (has(fields, Effect::spot) || is_described(fields, {"SPOT"})) {
+  if (has(fields, Effect::spot) || is_described(fields, "SPOT")) {
     throw input_error(fields.where(),
                       ": a spot compression, which presses a part of the breast: the simulated "
                       "plates press all of it; give the whole view");
   }
   if (fields.text("0028|1300") == "YES" || has(fields, Effect::implant) ||
-      is_described(fields, {"IMPLANT", "IMPLANTS"}, true)) {
+      is_described(fields, "IMPLANT") || is_described_as_implant(fields)) {
     throw input_error(fields.where(),
                       ": shows a breast with an implant, which the model does not have");
   }
@@ -267,8 +303,8 @@ void refuse_what_is_not_simulated(MammogramFields& fields) {
 }
 
 bool is_magnification_view(const MammogramFields& fields) {
-  return has(fields, Effect::magnified) ||
-         is_described(fields, {"MAG", "MAGNIFICATION", "MAGNIFIED"});
+  return has(fields, Effect::magnified) || is_described(fields, "MAGNIF") ||
+         is_named(fields, "MAG");
 }
 
 }  // namespace breast

@@ -79,6 +79,7 @@ bool better(const DicomStack& a, const DicomStack& b) {
   constexpr double finer = 0.95;
   if (is_large(a) != is_large(b)) return is_large(a);
   if (a.first().contrast != b.first().contrast) return a.first().contrast < b.first().contrast;
+  if (a.first().derived != b.first().derived) return b.first().derived;
   if (a.time != b.time) return a.time < b.time;
   const auto voxel = [](const DicomStack& stack) {
     return stack.first().pixel.prod() * stack.thickness();
@@ -174,31 +175,33 @@ std::size_t asked_for(const Contents& contents, const ScanChoice& choice) {
   return index;
 }
 
-/// Refuses to choose between examinations: of the scans that show as much as the best, all are of one patient and study.
-void check_one_examination(const Contents& contents, std::size_t best, const ScanChoice& choice) {
+/// The scans that show as much as the best, whatever their contrast, if they are of several patients or
+/// examinations, between which there is no choice by a rule; otherwise nothing.
+std::vector<std::size_t> of_several(const Contents& contents, std::size_t best,
+                                    const ScanChoice& choice) {
   const DicomStack& taken = contents.stacks[best];
   std::vector<std::size_t> rivals;
   bool of_one = true;
   for (std::size_t n = 0; n < contents.stacks.size(); ++n) {
     const DicomStack& other = contents.stacks[n];
-    if (!is_candidate(other, choice) || is_large(other) != is_large(taken) ||
-        other.first().contrast != taken.first().contrast)
-      continue;
+    if (!is_candidate(other, choice) || is_large(other) != is_large(taken)) continue;
     rivals.push_back(n);
     of_one = of_one && other.first().patient_id == taken.first().patient_id &&
              other.first().study_uid == taken.first().study_uid;
   }
-  if (of_one) return;
-  throw input_error(contents.folder.string(),
-                    ": scans of several patients or examinations; give the folder of one, or "
-                    "choose with --series N: ",
-                    listed(contents, rivals));
+  if (of_one) rivals.clear();
+  return rivals;
 }
 
 std::size_t best_index(const Contents& contents, const ScanChoice& choice) {
   const std::vector<std::size_t> best = best_of(contents, choice);
   if (best.empty()) throw none_of(contents, choice);
-  check_one_examination(contents, best.front(), choice);
+  if (const auto rivals = of_several(contents, best.front(), choice); !rivals.empty()) {
+    throw input_error(contents.folder.string(),
+                      ": scans of several patients or examinations; give the folder of one, or "
+                      "choose with --series N: ",
+                      listed(contents, rivals));
+  }
   if (best.size() > 1) {
     throw input_error(
         contents.folder.string(), ": ", best.size(), " of ", contents.stacks.size(),
@@ -208,13 +211,15 @@ std::size_t best_index(const Contents& contents, const ScanChoice& choice) {
 }
 
 std::string use_of(const Contents& contents, std::size_t n, const std::vector<std::size_t>& best,
-                   const ScanChoice& choice) {
+                   bool several, const ScanChoice& choice) {
   const DicomStack& stack = contents.stacks[n];
   if (!stack.fault.empty()) return "no: " + stack.fault;
   if (is_localiser(stack)) return "only if asked for: a localiser";
   if (!shows(stack, choice.side))
     return message("no: does not show the ", side_name(*choice.side), " breast");
   if (std::find(best.begin(), best.end(), n) == best.end()) return "if asked for";
+  if (several)
+    return "if asked for: one of the best, but there are several patients or examinations";
   return best.size() == 1 ? "taken" : "if asked for: one of the best";
 }
 
@@ -249,6 +254,7 @@ SeriesList list_stacks(const fs::path& folder, const ScanChoice& choice) {
   list.table.columns = {"series",   "images",     "pixels", "voxel_mm",
                         "contrast", "time_point", "sides",  "use"};
   const std::vector<std::size_t> best = best_of(contents, choice);
+  const bool several = !best.empty() && !of_several(contents, best.front(), choice).empty();
   for (std::size_t n = 0; n < contents.stacks.size(); ++n) {
     const DicomStack& stack = contents.stacks[n];
     const DicomImage& first = stack.first();
@@ -262,7 +268,7 @@ SeriesList list_stacks(const fs::path& folder, const ScanChoice& choice) {
                                message(stack.time, " of ", stack.times),
                                !placed ? std::string(empty_cell)
                                        : std::string(stack.side ? side_name(*stack.side) : "both"),
-                               use_of(contents, n, best, choice)});
+                               use_of(contents, n, best, several, choice)});
   }
   if (contents.stacks.empty()) throw none_of(contents, choice);
   list.remarks = passed_over(contents);

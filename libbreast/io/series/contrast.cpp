@@ -5,7 +5,6 @@
 #include <array>
 #include <cctype>
 #include <cstdlib>
-#include <initializer_list>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -18,7 +17,7 @@ namespace breast {
 
 namespace {
 
-/// Words of some element, in small letters.
+/// Words of some element, in small letters and in their order.
 class Words {
  public:
   void add_values(const std::string& text) {  // "ORIGINAL\PRIMARY\W"
@@ -26,23 +25,71 @@ class Words {
   }
   void add_words(const std::string& text) {  // "t1_fl3d_tra fatsat"
     std::string word;
-    for (const char c : lower_case(text) + " ") {
+    const std::string small = spelled_out(lower_case(text)) + " ";
+    for (const char c : small) {
       if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
         word += c;
       } else if (!word.empty()) {
         words_.push_back(std::exchange(word, ""));
       }
     }
+    words_.emplace_back();  // what follows is another text
   }
-  bool any(std::initializer_list<std::string_view> names) const {
-    return std::any_of(words_.begin(), words_.end(), [&](const std::string& word) {
-      return std::find(names.begin(), names.end(), word) != names.end();
-    });
+  using Names = std::vector<std::string_view>;
+  bool any(const Names& names) const {
+    return std::any_of(words_.begin(), words_.end(),
+                       [&](const std::string& word) { return is_one(word, names); });
+  }
+  bool any_ends(std::string_view ending) const {
+    return std::any_of(words_.begin(), words_.end(),
+                       [&](const std::string& word) { return word.ends_with(ending); });
+  }
+  /// Whether one of `names` occurs that none of `before` precedes and none of `after` follows.
+  bool any_but(const Names& names, const Names& before, const Names& after) const {
+    for (std::size_t n = 0; n < words_.size(); ++n) {
+      const bool excluded = (n > 0 && is_one(words_[n - 1], before)) ||
+                            (n + 1 < words_.size() && is_one(words_[n + 1], after));
+      if (is_one(words_[n], names) && !excluded) return true;
+    }
+    return false;
+  }
+  /// Whether these words occur one after the other, and none of `before` precedes them.
+  bool in_row(const Names& first, const Names& second, const Names& before = {}) const {
+    for (std::size_t n = 0; n + 1 < words_.size(); ++n) {
+      if (is_one(words_[n], first) && is_one(words_[n + 1], second) &&
+          !(n > 0 && is_one(words_[n - 1], before)))
+        return true;
+    }
+    return false;
   }
 
  private:
+  static bool is_one(const std::string& word, const Names& names) {
+    return std::find(names.begin(), names.end(), word) != names.end();
+  }
+  /// "w/o" and "w/" are words, not the letter that stands for water.
+  static std::string spelled_out(std::string text) {
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 2> short_forms{
+        {{"w/o", " without "}, {"w/", " with "}}};
+    for (const auto& [form, words] : short_forms) {
+      for (std::size_t at = text.find(form); at != std::string::npos;
+           at = text.find(form, at + words.size())) {
+        if (at > 0 && std::isalnum(static_cast<unsigned char>(text[at - 1])) != 0) continue;
+        text.replace(at, form.size(), words);
+      }
+    }
+    return text;
+  }
+
   std::vector<std::string> words_;
 };
+
+/// Words that take back what follows them, as in "no fat sat".
+const Words::Names negations{"no",   "non",  "not",   "without", "wo",
+                             "ohne", "sans", "senza", "sin",     "zonder"};
+/// Words after "fat" that say that its signal is suppressed.
+const Words::Names suppression{"sat",  "sats",  "saturation",  "saturated", "sup",
+                               "supp", "suppr", "suppression", "suppressed"};
 
 enum class Weighting { unknown, t1, t2 };
 
@@ -55,38 +102,56 @@ Weighting weighting_by_times(double repetition_ms, double echo_ms) {
   return Weighting::unknown;
 }
 
+/// Words after "water" that say that only water is excited, which suppresses fat.
+const Words::Names excitation{"excitation", "exc", "selective"};
+
+/// The same by the name of a series. Single letters mean water or fat only where a Dixon scan is named.
+ScanContrast named_kind(const Words& name) {
+  if (name.any({"sub", "subtr", "subtraction", "subtraktion", "subtracted"}))
+    return ScanContrast::subtraction;
+  if (name.any({"mip"})) return ScanContrast::projection;
+  if (name.any({"dwi", "adc", "eadc", "diffusion", "resolve", "ep2d"}))
+    return ScanContrast::diffusion;
+  if (name.any({"map"})) return ScanContrast::map;
+  const bool is_dixon = name.any({"dixon", "mdixon", "dix", "ideal", "flex"});
+  if (name.any_but({"water"}, negations, excitation) || (is_dixon && name.any({"w"})))
+    return ScanContrast::water;
+  if (name.any({"outphase", "opposed", "opp"}) || name.in_row({"out"}, {"phase", "of"}) ||
+      name.any_but({"op"}, {"post", "pre", "prae"}, {}) || (is_dixon && name.any({"out"})))
+    return ScanContrast::opposed_phase;
+  if (name.any({"inphase", "ip"}) || name.in_row({"in"}, {"phase"}) ||
+      (is_dixon && name.any({"in"})))
+    return ScanContrast::in_phase;
+  if (name.any_but({"fat"}, negations, suppression) || (is_dixon && name.any({"f"})))
+    return ScanContrast::fat;
+  return ScanContrast::unknown;
+}
+
+/// Whether it is said not to be a magnitude where the type does not tell.
+bool is_part_of_signal(const std::string& component) {
+  return component == "PHASE" || component == "REAL" || component == "IMAGINARY";
+}
+
 /// What is made from other images, or shows a part of the signal.
-ScanContrast derived_kind(const Words& type, const Words& description) {
+ScanContrast derived_kind(const std::function<std::string(const char*)>& value, const Words& type,
+                          const Words& description) {
   if (type.any({"projection image", "mip", "mpr", "minip", "max_ip", "min_ip", "mean_ip"}))
     return ScanContrast::projection;
   if (type.any({"p", "phase", "phase map", "r", "real", "i", "imaginary"}) &&
       !type.any({"m", "magnitude"}))
     return ScanContrast::phase;
+  if (is_part_of_signal(value("0008|9208"))) return ScanContrast::phase;
   if (type.any({"sub", "subtraction", "subtracted"})) return ScanContrast::subtraction;
   if (type.any({"diffusion", "adc", "tracew", "trace"})) return ScanContrast::diffusion;
-  if (type.any({"ff", "fat_fraction", "water_fraction", "r2_star", "r2_star_map", "t2_star",
-                "t2_star_map", "b0_map", "field_map", "quantity"}))
+  if (type.any({"ff", "fat_fraction", "water_fraction", "r2_star", "t2_star", "quantity"}) ||
+      type.any_ends("map"))
     return ScanContrast::map;
   if (type.any({"w", "water", "dixon_water"})) return ScanContrast::water;
   if (type.any({"f", "fat", "dixon_fat"})) return ScanContrast::fat;
   if (type.any({"ip", "in_phase", "inphase"})) return ScanContrast::in_phase;
   if (type.any({"op", "out_phase", "opp_phase", "outphase", "out_of_phase"}))
     return ScanContrast::opposed_phase;
-  if (description.any({"sub", "subtraction", "subtracted"})) return ScanContrast::subtraction;
-  if (description.any({"mip"})) return ScanContrast::projection;
-  if (description.any({"dwi", "adc", "diffusion", "resolve", "ep2d"}))
-    return ScanContrast::diffusion;
-  if (description.any({"water", "w"})) return ScanContrast::water;
-  const bool of_phase = description.any({"phase", "dixon"});  // "in phase", "dixon_in"
-  if (description.any({"outphase", "opposed", "op", "opp"}) ||
-      (of_phase && description.any({"out"})))
-    return ScanContrast::opposed_phase;
-  if (description.any({"inphase", "ip"}) || (of_phase && description.any({"in"})))
-    return ScanContrast::in_phase;
-  if (description.any({"fat", "f"}) &&
-      !description.any({"sat", "sup", "without", "no", "nofat", "non"}))
-    return ScanContrast::fat;
-  return ScanContrast::unknown;
+  return named_kind(description);
 }
 
 bool is_fat_suppressed(const std::function<std::string(const char*)>& value,
@@ -97,9 +162,11 @@ bool is_fat_suppressed(const std::function<std::string(const char*)>& value,
   if (options.any({"fs", "fatsat", "fat sat", "spir", "spair", "fsat"})) return true;
   const std::string suppressed = lower_case(value("0018|9025"));  // enhanced objects
   if (suppressed.starts_with("fat")) return true;
-  if (description.any({"nofs", "nonfs", "nofatsat", "non", "without", "no", "wofs"})) return false;
-  return description.any({"fs", "fatsat", "spair", "spir", "stir", "tirm", "fatsup", "fsat"}) ||
-         (description.any({"fat"}) && description.any({"sat", "saturation", "sup", "suppressed"}));
+  return description.any_but(
+             {"fs", "fatsat", "spair", "spir", "stir", "tirm", "fatsup", "fsat", "we"}, negations,
+             {}) ||
+         description.in_row({"fat"}, suppression, negations) ||
+         description.in_row({"water"}, excitation, negations);
 }
 
 }  // namespace
@@ -127,7 +194,7 @@ ScanContrast contrast_of(const std::function<std::string(const char*)>& value) {
   type.add_values(value("0008|0008"));
   description.add_words(value("0008|103e"));
   description.add_words(value("0018|1030"));
-  const ScanContrast kind = derived_kind(type, description);
+  const ScanContrast kind = derived_kind(value, type, description);
   if (kind != ScanContrast::unknown) return kind;
   Weighting weighting = weighting_by_times(std::atof(value("0018|0080").c_str()),
                                            std::atof(value("0018|0081").c_str()));

@@ -28,7 +28,7 @@ enum class ScanContrast {
 const char* contrast_name(ScanContrast contrast);
 
 /// The contrast by Image Type, sequence, times, options and, where these are silent, the words of the description
-/// that name contrasts. `value` gives an element by its key ("0018|0081") or "".
+/// that name contrasts ("w/o FS" is no water image). `value` gives an element by its key ("0018|0081") or "".
 ScanContrast contrast_of(const std::function<std::string(const char*)>& value);
 
 }  // namespace breast

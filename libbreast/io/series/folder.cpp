@@ -40,6 +40,12 @@ std::vector<fs::path> files_below(const fs::path& folder, int& links) {
   return files;
 }
 
+/// The class as the data set states it, else the meta information, as of a DICOMDIR.
+std::string class_of(const DicomObject& object) {
+  const std::string stated = text_of(object.header, "0008|0016");
+  return stated.empty() ? text_of(object.header, "0002|0002") : stated;
+}
+
 /// Whether an instance was seen in another file with the same content, as in exports that hold a series
 /// twice.
 bool is_copy(const fs::path& file, const DicomObject& object,
@@ -74,7 +80,7 @@ DicomFolder find_images(const fs::path& folder) {
       }
     } catch (const Error& error) {
       // What has no pixels is passed over whether it is whole or not.
-      const std::string sop_class = text_of(object.header, "0008|0016");
+      const std::string sop_class = class_of(object);
       if (!sop_class.empty() && !is_image_class(sop_class)) {
         ++found.without_pixels[object_kind(sop_class)];
         continue;
@@ -83,7 +89,7 @@ DicomFolder find_images(const fs::path& folder) {
       continue;
     }
     if (!object.pixels) {
-      ++found.without_pixels[object_kind(text_of(object.header, "0008|0016"))];
+      ++found.without_pixels[object_kind(class_of(object))];
     } else if (is_copy(file, object, instances)) {
       ++found.copies;
     } else {

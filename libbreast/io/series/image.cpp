@@ -118,6 +118,17 @@ void check_kind(const Elements& elements, const DicomObject& object, DicomImage&
   }
 }
 
+/// Magnitude, phase, real or imaginary part: as stated, or by a private number of GE, whose image types do
+/// not tell them apart.
+std::string component_of(const Elements& elements) {
+  const std::string stated = elements.value("0018|9226", "0008|9208");
+  if (!stated.empty() || elements.value("0043|0010") != "GEMS_PARM_01") return stated;
+  const std::string number = elements.value("0043|102f");
+  if (number == "1") return "PHASE";
+  if (number == "2") return "REAL";
+  return number == "3" ? "IMAGINARY" : number == "0" ? "MAGNITUDE" : "";
+}
+
 void take_marks(const Elements& elements, DicomImage& image) {
   const auto set = [&](Mark mark, const std::string& value) {
     image.marks[std::size_t(mark)] = trimmed(value);
@@ -134,12 +145,15 @@ void take_marks(const Elements& elements, DicomImage& image) {
   const std::string echo = elements.value("0018|9114", "0018|9082");
   set(Mark::echo, echo.empty() ? elements.value("0018|0081") : echo);
   set(Mark::weighting, elements.value("0018|9117", "0018|9087"));
+  set(Mark::component, component_of(elements));
   image.localiser = image.mark(Mark::kind).find("LOCALIZER") != std::string::npos ||
                     elements.value("0008|0008").find("LOCALIZER") != std::string::npos;
+  image.derived = image.mark(Mark::kind).find("\\SECONDARY") != std::string::npos;
   image.contrast = contrast_of([&](const char* key) {
     const std::string name(key);
     if (name == "0008|0008") return image.mark(Mark::kind);
     if (name == "0018|0081") return image.mark(Mark::echo);
+    if (name == "0008|9208") return image.mark(Mark::component);
     if (name == "0018|0080") return elements.value("0018|9112", key);
     if (name == "0018|9025") return elements.value("0018|9115", key);
     return elements.value(key);
@@ -175,6 +189,10 @@ DicomImage image_of(const fs::path& file, const DicomObject& object, int frame) 
     take_scale(elements, image);
   } catch (const Error& error) {
     image.fault = error.what();
+    // A picture of the screen that was stored with a series is none of its slices.
+    constexpr const char* secondary_capture = "1.2.840.10008.5.1.4.1.1.7";
+    if (image.sop_class.starts_with(secondary_capture) && elements.value("0020|0032").empty())
+      image.foreign = true;
   }
   return image;
 }

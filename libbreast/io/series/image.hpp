@@ -23,6 +23,7 @@ enum class Mark {
   kind,
   echo,
   weighting,
+  component,  ///< of the complex signal: magnitude, phase, real, imaginary
   count
 };
 
@@ -37,7 +38,8 @@ struct DicomImage {
   std::string laterality;        ///< "L", "R" or ""
   bool localiser = false;        ///< by its image type
   bool encapsulated = false;     ///< its pixels are compressed
-  bool foreign = false;          ///< of another modality than MR
+  bool foreign = false;          ///< of another modality than MR, or a picture without a place
+  bool derived = false;          ///< made from other images, such as a reformatted series
   Vec3 position{0, 0, 0};        ///< mm, centre of the first pixel, LPS
   Vec3 row{0, 0, 0}, column{0, 0, 0};
   Vec2 pixel{0, 0};  ///< mm between rows, between columns

@@ -71,7 +71,7 @@ bool of_time(Mark mark) {
 
 constexpr std::array time_marks{Mark::time, Mark::acquisition, Mark::trigger, Mark::acquired_at,
                                 Mark::stored_at};
-constexpr std::array kind_marks{Mark::kind, Mark::echo, Mark::weighting};
+constexpr std::array kind_marks{Mark::kind, Mark::component, Mark::echo, Mark::weighting};
 
 DicomStack part_of(const DicomStack& whole, Part slices) {
   DicomStack part = whole;

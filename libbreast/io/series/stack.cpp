@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/statistics/percentile.hpp"
+#include "core/table.hpp"
 #include "io/dicom/stored_values.hpp"
 #include "io/series/split.hpp"
 #include "io/volume/header.hpp"
@@ -74,8 +75,33 @@ void check_steps(const std::vector<DicomImage>& slices, const std::string& where
     if (std::abs(steps[n] - usual) <= equal * usual) continue;
     throw input_error(where, ": slices ", name_of(slices[n]), " and ", name_of(slices[n + 1]),
                       " are ", steps[n], " mm apart, the others ", usual,
-                      " mm (bound 1 %, or places within 0.1 mm): a slice is missing or duplicated");
+                      " mm (bound 1 %, or places within 0.1 mm): a slice is missing or duplicated, "
+                      "or their positions are rounded");
   }
+}
+
+/// Refuses slices beside the line from the first to the last, which is the third axis of the volume. Coordinates
+/// rounded to a tenth of a mm leave the end of a line by 0.09 mm at most, and so does the slice.
+void check_straight(const std::vector<DicomImage>& slices, const std::string& where) {
+  constexpr double bound_mm = 0.2;
+  const std::vector<double> at = places_of(slices);
+  const DicomImage &first = slices.front(), &last = slices.back();
+  const Vec3 normal = first.row.cross(first.column).normalized();
+  double most = 0;
+  const DicomImage* farthest = nullptr;
+  for (std::size_t n = 0; n < slices.size(); ++n) {
+    const double part = (at[n] - at.front()) / (at.back() - at.front());
+    const Vec3 off = slices[n].position - first.position - part * (last.position - first.position);
+    const double beside = (off - off.dot(normal) * normal).norm();
+    if (beside <= most) continue;
+    most = beside;
+    farthest = &slices[n];
+  }
+  if (most <= bound_mm) return;
+  throw input_error(where, ": slice ", name_of(*farthest), " lies ", format_fixed(most, 1),
+                    " mm beside the straight line from the first slice to the last (",
+                    name_of(first), ", ", name_of(last), "; bound ", bound_mm,
+                    " mm): they are no volume; give a folder with slices of one scan only");
 }
 
 void check_volume(const DicomStack& stack, const std::string& where) {
@@ -88,6 +114,7 @@ void check_volume(const DicomStack& stack, const std::string& where) {
   check_voxel_count(first.file.string(),
                     double(first.columns) * first.rows * double(stack.slices.size()));
   check_steps(stack.slices, where);
+  check_straight(stack.slices, where);
 }
 
 /// The side that it shows if it is less wide than both: as stated, else by its place.
