@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 _TEMPLATES = Path(__file__).with_name("templates")
 _SCRIPTS = ("data", "lookup", "arc", "window", "view", "pins", "colours", "overlay", "marks", "slice", "body", "list", "readout",
             "gestures", "keys", "controls", "main")
-_TUMOUR_WORDS = {"none": "", "given": "the tumour of the MR, where the model has it",
+_TUMOUR_WORDS = {"none": "", "given": "the tumour of the MR, in a mammogram moved as the model says",
                  "artificial": "an artificial tumour, put there by the program: not a finding"}
 
 _ANIMATIONS = {"supine": "The breast while the patient turns from prone to supine, equilibrium by equilibrium",
@@ -236,8 +236,8 @@ def _answer(views: Views, lines: list[MatchedLine | None]) -> list[str]:
     without = _not_counted(views)
     if without and any(line and line.to_either_side_mm > 0 for line in lines):
         said.append(f"Not counted in the 90 %: {without}.")
-    return [*said, "The rings in both views mark its place in the MR, moved as the model says. A single mammogram does not show depth, hence the "
-            "line."]
+    return [*said, "The ring in each view is the tumour of the MR, moved as the model says. A single mammogram does not show depth: a place in "
+            "one view is therefore a line in the other."]
 
 
 def _not_counted(views: Views) -> str:
