@@ -188,8 +188,8 @@ def _pictures_of_patient(views: Views, lines: list[MatchedLine | None]) -> list[
 def _behind(views: Views) -> list[str]:
     """How the images show what lies behind the model, if they do."""
     behind = [image.images["thickness"][image.images["through_back"] != 0] for image, _ in views.pairs]
-    words = (("Even grey at the back of a mammogram: behind the model, where nothing is known.", any((mm <= 0).any() for mm in behind)),
-             ("At the back of a mammogram, what lies behind the model is drawn as fat, and behind muscle as muscle.",
+    words = (("Even grey at the back of a mammogram: the model has ended, and nothing is known there.", any((mm <= 0).any() for mm in behind)),
+             ("The model ends behind the breast: from there to the back of a mammogram, fat is drawn, or muscle where the model ends in muscle.",
               any((mm > 0).any() for mm in behind)))
     return [said for said, shown in words if shown]
 
