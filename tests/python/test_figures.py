@@ -261,6 +261,15 @@ class OfAScan(unittest.TestCase):
         self.assertGreater(SAGITTAL.right @ [0, 1, 0], 0)
         self.assertGreater(CORONAL.up @ [0, 0, 1], 0)
 
+    def test_a_nipple_is_marked_where_the_slice_goes_through_it(self):
+        """5 mm beside its middle a slice shows skin some 10 mm behind its tip: the mark would stand in air."""
+        slices = Slices(Inputs(scan=self.scan, labels=self.labels))
+        for plane in (AXIAL, SAGITTAL, CORONAL):
+            for beside, marked in ((2.0, True), (5.0, False)):
+                nipple = slices.through + beside * np.eye(3)[plane.axis]
+                slices.labels = dataclasses.replace(self.labels, landmarks={"nipple": nipple})
+                self.assertEqual(slices.nipple(plane) is not None, marked)
+
     def test_what_is_no_breast_is_refused(self):
         with self.assertRaisesRegex(breast.BreastError, "there is no breast to show"):
             Slices(Inputs(scan=self.scan, labels=dataclasses.replace(self.labels, tissue=np.zeros_like(self.labels.tissue))))
