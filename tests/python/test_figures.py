@@ -113,6 +113,8 @@ class Places(unittest.TestCase):
         self.assertEqual(letters([0.05, -0.2, -1], [0, -1, 0]), "AL", "S would stand on the arrow to A")
         self.assertEqual(letters([-0.75, 0.75, -0.35], [0, 0, 1]), "ALS")
         self.assertEqual(letters([0, 1, 0], [0, 0, 1]), "LS", "A points at the viewer")
+        # Along the plates of an oblique view, of which two axes point upwards, one farther than the other.
+        self.assertEqual(letters([0.5, 0.3, -0.4], [0.6, 0, 0.7]), "ALS")
 
     def test_balls_and_tubes_are_shown_whole(self):
         scene = Scene()

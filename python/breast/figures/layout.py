@@ -262,24 +262,23 @@ class Panel:
                 for axis, letter in ((np.array([1, 0, 0]), "L"), (np.array([0, -1, 0]), "A"), (np.array([0, 0, 1]), "S"))]
         arms.sort(key=lambda one: -np.linalg.norm(one[0]))
         origin = 22 - np.minimum(0, np.min([30 * arm for arm, _ in arms], axis=0))
-        named: list[tuple[np.ndarray, str]] = []
-        for k, (arm, letter) in enumerate(arms):
+        named: list[tuple[np.ndarray, np.ndarray, str]] = []  # arm, place of its letters, these
+        for arm, letter in arms:
             if np.linalg.norm(arm) < 0.15:  # points at or away from the viewer
                 continue
             at = 30 * arm + 11 * arm / np.linalg.norm(arm)
-            if any(_from_arm(at, 30 * longer) < 0.6 * LETTERS for longer, _ in arms[:k]):  # its letter would lie on another arm
+            over = next((n for n, (longer, other, _) in enumerate(named) if np.linalg.norm(other - at) < 14 or
+                         _from_arm(at, 30 * longer) < 0.6 * LETTERS), None)
+            if over is None:
+                named.append((arm, at, letter))
+            elif np.linalg.norm(arm - named[over][0]) < 0.5 * np.linalg.norm(named[over][0]):
+                # Along an oblique beam two axes may coincide: their letters then stand side by side.
+                named[over] = (*named[over][:2], named[over][2] + letter)
+            else:  # its letter would lie on another arm
                 continue
-            tip = origin + 30 * arm
-            self._arrow(origin, tip, 6, 3.5, 2)
-            at = origin + at
-            # Along an oblique beam two axes may coincide: their letters then stand side by side.
-            same = next((n for n, (other, _) in enumerate(named) if np.linalg.norm(other - at) < 14), None)
-            if same is None:
-                named.append((at, letter))
-            else:
-                named[same] = (named[same][0], named[same][1] + letter)
-        for at, letters in named:
-            self.text(at, letters, LETTERS, align="center")
+            self._arrow(origin, origin + 30 * arm, 6, 3.5, 2)
+        for _, at, letters in named:
+            self.text(origin + at, letters, LETTERS, align="center", boxed=True)
 
     def colour_bar(self, colours: Any, high: float, title: str) -> None:
         """A scale from 0 to `high` at the right, 62 pixels from the border."""
