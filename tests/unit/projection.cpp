@@ -309,7 +309,7 @@ TEST(Projection, ForeignLabelsBehindTheImageAreNotCounted) {
     return report.unlabelled;
   };
   EXPECT_EQ(share(-8), 0);
-  EXPECT_NEAR(share(-48), 0.5, 0.05);
+  EXPECT_NEAR(share(-37.5), 0.5, 0.05);  // half of the 45 mm in front of the cut
   EXPECT_NEAR(share(-200), 1, 1e-6);
 }
 
