@@ -287,8 +287,8 @@ class WhatIsSaid(unittest.TestCase):
 
     def test_what_lies_behind_the_model_is_said_as_it_is_drawn(self):
         image, state = self.views.pairs[0]
-        for behind, said, unsaid in ((0, "behind the model, where nothing is known", "is drawn as fat"),
-                                     (40, "is drawn as fat", "where nothing is known"), (None, "One scale", "behind the model")):
+        for behind, said, unsaid in ((0, "the model has ended, and nothing is known", "fat is drawn, or muscle"),
+                                     (40, "fat is drawn, or muscle", "nothing is known"), (None, "One scale", "The model ends")):
             images = {name: values.copy() for name, values in image.images.items()}
             images["through_back"][:] = 0
             images["through_back"][:, 0] = behind is not None
