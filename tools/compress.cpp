@@ -35,8 +35,8 @@ void declare(Tool& tool, Choices& c) {
       "that they just touch it, and closes them to a thickness, a reduction, a force, a mean "
       "pressure or a contact area; if several are given, the first one that is reached ends the "
       "compression. If none is given, the plates close as in screening, to a force of 110 N or to 35 "
-      "mm, whichever comes first; a breast that covers less than 28 cm2 of the image is given 4 N "
-      "for each of these cm2, but at least 50 N.");
+      "mm, whichever comes first; a breast that covers less than 28 cm2 of the image is pressed with "
+      "4 N for each cm2 that it covers, but with at least 50 N.");
   tool.describe(
       "With --image-edge, which is the default for a breast that slides on its chest "
       "wall, the plates are placed as in the clinic: their edge is close to the chest wall and "
@@ -120,12 +120,13 @@ void declare(Tool& tool, Choices& c) {
               0, 500);
   tool.text(
       c.image_edge, "--image-edge", "auto|MM",
-      "place the plates as in the clinic: the image ends, and their rounded edge starts, MM in "
-      "front of the chest wall, that is of its most anterior point behind the breast, or of the"
-      " muscle there. In CC, auto is 5, or 7.5 and then 10 where the rounded edges would carry "
-      "40 % of a plate's force; in MLO and ML it is 0, or with a layer of muscle 1.25 times its"
-      " thickness behind its front. --turn, --lean, --bend, --edge-radius, --contact-points, "
-      "--friction, --positioning and --pull then have the defaults of the clinic, too (default:"
+      "place the plates as in the clinic: MM in front of the chest wall, or of the muscle if the "
+      "model has a layer of it, the image ends and the plates' rounded edges start. MM counts from "
+      "the most anterior point of wall or muscle behind the breast. auto in CC: 5; if the rounded "
+      "edges then carry 40 % of a plate's force, 7.5; if they still do, 10. auto in MLO and ML: 0; "
+      "with a layer of muscle, 1.25 times its thickness behind its front. Other options then have "
+      "the defaults of the clinic, too: --turn, --lean, --bend, --edge-radius, --contact-points, "
+      "--friction, --positioning and --pull (default:"
       " auto for a breast that slides on its chest wall, unless --standoff is given; otherwise "
       "--standoff places the plates)");
   tool.text(

@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
   Choices c;
   Tool tool(
       "difference",
-      "how a shape moves if its mesh changes (a shifted chest wall, say), from two runs with such changes");
+      "how a shape moves with its mesh (a shifted chest wall, say), from two runs whose meshes differ");
   tool.describe(
       "The tool sensitivity differentiates with respect to materials, gravity and plates; a "
       "change of the chest wall changes the mesh itself. The chain is therefore run twice more "

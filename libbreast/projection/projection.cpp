@@ -32,10 +32,10 @@ void add_element_tissue(Tissue tissue, double length, TissuePath& mm) {
   }
 }
 
-// One row of pixels; `unlabelled` and `back` are summed over it.
+// Summed over one row of pixels.
 struct RowSums {
-  TissuePath mm;
-  double unlabelled = 0;
+  TissuePath mm;             // without columns that leave through the back
+  double unlabelled = 0;     // mm of that
   int back = 0, muscle = 0;  // pixels
 };
 
@@ -116,6 +116,7 @@ class Projector {
       if (!(filled_ > 0)) return;
     }
     TissuePath mm;
+    double unlabelled = 0;
     if (voxels_) {
       const Ray ray = rays_.ray(image.pixel * Vec2(u, v));
       VoxelTissue::Parts parts = VoxelTissue::Parts::Zero();
@@ -130,7 +131,7 @@ class Projector {
       }
       mm = VoxelTissue::path(parts, length);
       mm.muscle = muscle;
-      sums.unlabelled += VoxelTissue::unlabelled(parts);
+      unlabelled = VoxelTissue::unlabelled(parts);
     } else {
       for (const Chord& chord : chords) {
         add_element_tissue(mesh_.tissue[rays_.element(chord.piece)], chord.leave - chord.enter, mm);
@@ -142,6 +143,7 @@ class Projector {
       return;
     }
     record(at, mm, image);
+    sums.unlabelled += unlabelled;
     sums.mm.fat += mm.fat;
     sums.mm.fibroglandular += mm.fibroglandular;
     sums.mm.skin += mm.skin;

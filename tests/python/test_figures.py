@@ -14,12 +14,14 @@ try:
     import matplotlib  # noqa: F401
     import vtkmodules  # noqa: F401
     from breast.elements import element_volumes
-    from breast.figures.body import gland_facets
+    from breast.figures.body import add_image_border, gland_facets, two_plates
     from breast.figures.inputs import Inputs
+    from breast.figures.colours import WHITE, Stroke
     from breast.figures.layout import Picture
     from breast.figures.mammogram import free_height, hung, parts_inside
     from breast.figures.muscle import back_words
     from breast.figures.outlines import joined
+    from breast.figures.scene import Camera, Scene
     from breast.figures.silhouette import contours, gaussian, silhouette
     from breast.figures.slices import AXIAL, CORONAL, SAGITTAL, Slices
     from breast.figures.states import _hands
@@ -84,6 +86,44 @@ class Lines(unittest.TestCase):
         self.assertEqual(parts_inside(np.array([[-5, 3], [-5, 90.0]]), size), ([], 87))
 
 
+class Places(unittest.TestCase):
+    def bar(self, *lines):
+        """The left end of the scale bar, pixels, of a panel 400 wide with lines in pixels."""
+        panel = Picture(400, 300).panel(0, 0, 1, 1)
+        panel.frame(np.array([200, 150]), 1)
+        panel.lines([np.array(line, float) for line in lines], Stroke((1, 1, 1), 2))
+        drawn = []
+        panel.line = lambda places, stroke: drawn.append(places)
+        panel.scale_bar(WHITE, either_side=True)
+        return drawn[0][0][0]
+
+    def test_a_scale_bar_keeps_clear_of_contours(self):
+        right, left = self.bar(), self.bar([(300, 0), (330, 60)])
+        self.assertTrue(right > 200 and left < 100)
+        self.assertEqual(self.bar([(300, 100), (330, 60)]), right, "above it")
+        self.assertEqual(self.bar([(0, 20), (400, 20)]), right, "crossed on both sides")
+
+    def test_a_letter_of_the_compass_lies_on_no_arm(self):
+        def letters(direction, up):
+            panel, said = Picture(400, 300).panel(0, 0, 1, 1), []
+            panel.camera = Camera(np.array(direction, float), np.array(up, float))
+            panel.text = lambda at, words, *args, **kwargs: said.append(words)
+            panel.compass()
+            return "".join(sorted("".join(said)))
+        self.assertEqual(letters([0.05, -0.2, -1], [0, -1, 0]), "AL", "S would stand on the arrow to A")
+        self.assertEqual(letters([-0.75, 0.75, -0.35], [0, 0, 1]), "ALS")
+        self.assertEqual(letters([0, 1, 0], [0, 0, 1]), "LS", "A points at the viewer")
+        # Along the plates of an oblique view, of which two axes point upwards, one farther than the other.
+        self.assertEqual(letters([0.5, 0.3, -0.4], [0.6, 0, 0.7]), "ALS")
+
+    def test_balls_and_tubes_are_shown_whole(self):
+        scene = Scene()
+        scene.balls(np.array([[10.0, 20, 30]]), 4, (1, 0, 0))
+        np.testing.assert_allclose([scene.shown().min(0), scene.shown().max(0)], [[6, 16, 26], [14, 24, 34]])
+        scene.tube(np.array([[0.0, 0, 0], [0, 0, 50]]), 2, (1, 0, 0))
+        np.testing.assert_allclose([scene.shown().min(0), scene.shown().max(0)], [[-2, -2, -2], [14, 24, 52]])
+
+
 class States(unittest.TestCase):
     def test_a_hand_that_lets_go_is_said(self):
         """As it lets go the breast may slip back, which without a word looks like an error."""
@@ -123,6 +163,19 @@ class OfARun(unittest.TestCase):
             np.testing.assert_allclose([frame.pose.e_u, frame.pose.e_v, frame.pose.n], [image.e_u, image.e_v, image.n], atol=1e-12)
             nv, nu = image.images["path"].shape
             self.assertLess(max(abs(frame.width - nu * image.pixel_mm), abs(frame.height - nv * image.pixel_mm)), image.pixel_mm + 1e-9)
+
+    def test_the_border_lies_on_the_detector(self):
+        """Also where tissue behind the plate hangs below it."""
+        state = self.run_folder.state("cc")
+        detector, n = two_plates(state)[1].origin, image_frame(state).pose.n
+        hanging = dataclasses.replace(state, points=state.points.copy())
+        hanging.points[state.node_sets["pectoral"]] += 30 * n
+        self.assertGreater((image_frame(hanging).pose.origin - detector) @ n, 5, "the image's own origin is below it")
+        for shape in (state, hanging):
+            scene = Scene()
+            add_image_border(scene, shape)
+            heights = (scene.shown() - detector) @ n
+            self.assertLess(np.abs(heights).max(), 1.5, "as thick as its lines")
 
     def test_mammograms_are_as_grey_as_the_programs_hang_them(self):
         from matplotlib.image import imread
@@ -209,6 +262,15 @@ class OfAScan(unittest.TestCase):
         self.assertGreater(AXIAL.up @ [0, -1, 0], 0)
         self.assertGreater(SAGITTAL.right @ [0, 1, 0], 0)
         self.assertGreater(CORONAL.up @ [0, 0, 1], 0)
+
+    def test_a_nipple_is_marked_where_the_slice_goes_through_it(self):
+        """5 mm beside its middle a slice shows skin some 10 mm behind its tip: the mark would stand in air."""
+        slices = Slices(Inputs(scan=self.scan, labels=self.labels))
+        for plane in (AXIAL, SAGITTAL, CORONAL):
+            for beside, marked in ((2.0, True), (5.0, False)):
+                nipple = slices.through + beside * np.eye(3)[plane.axis]
+                slices.labels = dataclasses.replace(self.labels, landmarks={"nipple": nipple})
+                self.assertEqual(slices.nipple(plane) is not None, marked)
 
     def test_what_is_no_breast_is_refused(self):
         with self.assertRaisesRegex(breast.BreastError, "there is no breast to show"):

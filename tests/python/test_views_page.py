@@ -287,8 +287,8 @@ class WhatIsSaid(unittest.TestCase):
 
     def test_what_lies_behind_the_model_is_said_as_it_is_drawn(self):
         image, state = self.views.pairs[0]
-        for behind, said, unsaid in ((0, "behind the model, where nothing is known", "is drawn as fat"),
-                                     (40, "is drawn as fat", "where nothing is known"), (None, "One scale", "behind the model")):
+        for behind, said, unsaid in ((0, "the model has ended, and nothing is known", "fat is drawn, or muscle"),
+                                     (40, "fat is drawn, or muscle", "nothing is known"), (None, "One scale", "The model ends")):
             images = {name: values.copy() for name, values in image.images.items()}
             images["through_back"][:] = 0
             images["through_back"][:, 0] = behind is not None
@@ -360,6 +360,16 @@ class WhatIsSaid(unittest.TestCase):
                                                               "breast slips or buckles there"]}))
         self.assertEqual([(remark.words.split()[:4], remark.said[0].split(":")[0]) for remark in remarks_of(run)],
                          [("The breast may buckle".split(), "supine"), ("The breast slipped while".split(), "cc")])
+
+    def test_a_warning_is_said_of_the_shape_that_it_is_of(self):
+        run = small_run.scratch("wrinkles")
+        for stage in ("supine", "cc", "mlo"):
+            (run / f"{stage}.json").write_text(json.dumps({"warnings": ["the skin is compressed enough to wrinkle over two elements or more "
+                                                                        "on 3 % of its area"]}))
+        words = {remark.words.partition(" wrinkles ")[2].partition(";")[0]: len(remark.said) for remark in remarks_of(run)}
+        self.assertEqual(words, {"in the supine shape": 1, "between the plates": 2})
+        (run / "cc.json").unlink(), (run / "mlo.json").unlink()
+        self.assertNotIn("plates", " ".join(remark.words for remark in remarks_of(run)), "nothing was wrong between them")
 
     def test_warnings_are_said_in_a_readers_words_worst_first(self):
         run = small_run.scratch("warned")
@@ -475,6 +485,14 @@ class WhatIsSaid(unittest.TestCase):
             width, height = (float(n) for n in re.search(r'<image [^>]*width="([\d.]+)" height="([\d.]+)"', figure).groups())
             rows, columns = image.images["path"].shape
             np.testing.assert_allclose((width, height), image.pixel_mm * np.array([columns, rows]), atol=0.01)
+
+    def test_words_at_the_top_of_a_picture_lie_in_it_whatever_their_size(self):
+        """Letters are larger on a telephone and where a wide row is printed: only a place in units of their height stays inside."""
+        figures = re.findall(r'<figure class="picture".*?</figure>', views_page(self.run_folder, self.moved_tumour()[0]), flags=re.S)
+        self.assertTrue(figures)
+        for figure in figures:
+            for attributes in re.findall(r'<text class="(?:upper|name)[^>]*>', figure):
+                self.assertGreaterEqual(float(re.search(r'dy="([\d.]+)em"', attributes)[1]), 0.75, "the height of a capital letter")
 
     def test_every_advice_has_words_and_they_are_plain(self):
         """A kind of warning that has advice in the report has words on the page."""

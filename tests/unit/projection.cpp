@@ -296,6 +296,23 @@ TEST(Projection, MuscleIsShownAndColumnsGoOnBeyondTheCut) {
   EXPECT_EQ(report.volumes.muscle, 0);  // of columns that go on beyond the mesh nothing is summed
 }
 
+// What is said of the tissue in the image is said of the columns that are summed: what lies in the others does not count.
+TEST(Projection, ForeignLabelsBehindTheImageAreNotCounted) {
+  HexMesh mesh = block_cut_below(true);
+  std::fill(mesh.tissue.begin(), mesh.tissue.end(), Tissue::fat);
+  const auto share = [&](double from) {
+    const LabelVolume labels = labels_around(
+        mesh, [&](const Vec3& x) { return x.y() > from ? Tissue::other : Tissue::fat; });
+    ProjectionReport report;
+    project_mammogram(mesh, {.pixel = 1, .labels = &labels}, &report);
+    EXPECT_GT(report.back_columns, 1000);
+    return report.unlabelled;
+  };
+  EXPECT_EQ(share(-8), 0);
+  EXPECT_NEAR(share(-37.5), 0.5, 0.05);  // half of the 45 mm in front of the cut
+  EXPECT_NEAR(share(-200), 1, 1e-6);
+}
+
 // Where the breast in front does not reach both plates, its continuation does not either: no step at the end of the model.
 TEST(Projection, BeyondTheCutTheBodyIsAsThickAsInFrontOfIt) {
   const Mammogram image = project_mammogram(block_cut_below(false), {.pixel = 0.5});

@@ -9,7 +9,7 @@ from .installation import Installation
 COMMANDS = {
     "run": "from a breast MR scan to the page of both mammographic views (the whole chain)",
     "demo": "the same on a simulated breast whose true shapes are known",
-    "page": "that page alone, without the table and the pictures; of a scan or of the simulated breast",
+    "page": "only the page, without the table and the pictures that `run` and `demo` also make",
     "cohort": "the whole chain on every patient (case file) of a folder",
     "list": "list the tools, one per line",
     "help": "help on a command, a tool or a setting; `help settings` lists what SETTING=value may be",

@@ -220,7 +220,9 @@ def add_plates(scene: Scene, state: State, nodal: np.ndarray, plates: Iterable[P
 def add_image_border(scene: Scene, state: State) -> None:
     """The border of the mammogram on the detector, seen through the body; thick where the image ends at the chest."""
     frame: ImageFrame = image_frame(state)
-    corners = [frame.pose.origin + u * frame.pose.e_u + v * frame.pose.e_v
+    detector = two_plates(state)[1].origin  # the frame's own origin may lie below it, at the height of tissue behind the plate
+    origin = frame.pose.origin + (detector - frame.pose.origin) @ frame.pose.n * frame.pose.n
+    corners = [origin + u * frame.pose.e_u + v * frame.pose.e_v
                for u, v in ((0, 0), (frame.width, 0), (frame.width, frame.height), (0, frame.height))]
     for k in range(4):
         scene.tube(np.array([corners[k], corners[(k + 1) % 4]]), 0.9 if k == 3 else 0.4, IMAGE_BORDER, through=True)
@@ -235,9 +237,9 @@ def two_plates(state: State) -> tuple[Plate, Plate]:
 
 
 def compression_words(state: State) -> str:
-    """ "MLO (left), 46.2 mm, 91 / 93 N": the forces are those of paddle and detector."""
+    """ "MLO (left), 46.2 mm, paddle 91 N, detector 93 N"."""
     words = f"{state.contact.view} ({state.side}), {state.contact.thickness_mm:.1f} mm"
     paddle, detector = two_plates(state)
     if paddle.force_N > 0 or detector.force_N > 0:
-        words += f", {paddle.force_N:.0f} / {detector.force_N:.0f} N"
+        words += f", paddle {paddle.force_N:.0f} N, detector {detector.force_N:.0f} N"
     return words

@@ -42,6 +42,12 @@ def mark() -> PngInfo:
     return made
 
 
+def _from_arm(place: np.ndarray, arm: np.ndarray) -> float:
+    """How far a place (2) is from the line from the origin to the end of an arm (2)."""
+    along = float(np.clip(place @ arm / max(arm @ arm, 1e-12), 0, 1))
+    return float(np.linalg.norm(place - along * arm))
+
+
 class Picture:
     """A page of `width` x `height` pixels, which panels share."""
 
@@ -95,6 +101,7 @@ class Panel:
         self.axes.set_axis_off()
         self.camera = Camera(np.array([0, 0, -1.0]), np.array([0, 1.0, 0]))
         self.top = float(size[1]) - _EDGE
+        self._drawn: list[np.ndarray] = []
         self.frame(0.5 * size, 1.0)
 
     # ---- where the drawing is ---------------------------------------------------------------------------------------
@@ -155,6 +162,7 @@ class Panel:
         """Lines through places (n, 2), mm; with a dark halo on an image."""
         if not len(pieces):
             return
+        self._drawn.extend(pieces)
         if halo:
             self._collect(pieces, Stroke(INK, stroke.width + 1.6), 0.4)
         self._collect(pieces, stroke)
@@ -222,37 +230,55 @@ class Panel:
             self.text((x + (46 if stroke else 0), y), words, SMALL + 1)
             x += width
 
-    def scale_bar(self, colour: Colour = INK) -> None:
-        """At the bottom right: the largest round length up to a quarter of the panel."""
+    def scale_bar(self, colour: Colour = INK, either_side: bool = False) -> None:
+        """At the bottom right: the largest round length up to a quarter of the panel. With `either_side` it is at the left where lines of
+        the drawing would cross it at the right and do not cross it there."""
         length = max((n for n in (1, 2, 5, 10, 20, 50, 100, 200) if n <= 0.25 * self.size[0] * self.mm_per_pixel), default=1)
-        right, y = self.size[0] - 22, 20.0
-        left = right - length / self.mm_per_pixel
+        long, y = length / self.mm_per_pixel, 20.0
+        right = self.size[0] - 22
+        if either_side and self._crossed(right - long, right, y) and not self._crossed(22, 22 + long, y):
+            right = 22 + long
+        left = right - long
         self.line([(left, y), (right, y)], Stroke(colour, 3))
         for x in (left, right):
             self.line([(x, y - 5), (x, y + 5)], Stroke(colour, 2))
-        self.text((0.5 * (left + right), y + 16), f"{length} mm", LETTERS, colour, "center")
+        self.text((0.5 * (left + right), y + 16), f"{length} mm", LETTERS, colour, "center", boxed=sum(colour) < 1.5)
+
+    def _crossed(self, left: float, right: float, y: float) -> bool:
+        """Whether a line of the drawing comes into the place of a scale bar and its words."""
+        low, high = np.array([left - 6, y - 8]), np.array([right + 6, y + 28])
+        for piece in self._drawn:
+            at = self.to_pixel(np.asarray(piece))
+            steps = np.linspace(0, 1, 9)[:, None, None]
+            dense = ((1 - steps) * at[:-1] + steps * at[1:]).reshape(-1, 2)
+            if ((dense > low) & (dense < high)).all(1).any():
+                return True
+        return False
 
     def compass(self) -> None:
         """At the bottom left: the patient's left, anterior and superior directions, where they lie in the picture."""
         right, top, _ = self.camera.axes()
         arms = [(np.array([axis @ right, axis @ top]), letter)
                 for axis, letter in ((np.array([1, 0, 0]), "L"), (np.array([0, -1, 0]), "A"), (np.array([0, 0, 1]), "S"))]
+        arms.sort(key=lambda one: -np.linalg.norm(one[0]))
         origin = 22 - np.minimum(0, np.min([30 * arm for arm, _ in arms], axis=0))
-        named: list[tuple[np.ndarray, str]] = []
+        named: list[tuple[np.ndarray, np.ndarray, str]] = []  # arm, place of its letters, these
         for arm, letter in arms:
             if np.linalg.norm(arm) < 0.15:  # points at or away from the viewer
                 continue
-            tip = origin + 30 * arm
-            self._arrow(origin, tip, 6, 3.5, 2)
-            at = tip + 11 * arm / np.linalg.norm(arm)
-            # Along an oblique beam two axes may coincide: their letters then stand side by side.
-            same = next((n for n, (other, _) in enumerate(named) if np.linalg.norm(other - at) < 14), None)
-            if same is None:
-                named.append((at, letter))
-            else:
-                named[same] = (named[same][0], named[same][1] + letter)
-        for at, letters in named:
-            self.text(at, letters, LETTERS, align="center")
+            at = 30 * arm + 11 * arm / np.linalg.norm(arm)
+            over = next((n for n, (longer, other, _) in enumerate(named) if np.linalg.norm(other - at) < 14 or
+                         _from_arm(at, 30 * longer) < 0.6 * LETTERS), None)
+            if over is None:
+                named.append((arm, at, letter))
+            elif np.linalg.norm(arm - named[over][0]) < 0.5 * np.linalg.norm(named[over][0]):
+                # Along an oblique beam two axes may coincide: their letters then stand side by side.
+                named[over] = (*named[over][:2], named[over][2] + letter)
+            else:  # its letter would lie on another arm
+                continue
+            self._arrow(origin, origin + 30 * arm, 6, 3.5, 2)
+        for _, at, letters in named:
+            self.text(origin + at, letters, LETTERS, align="center", boxed=True)
 
     def colour_bar(self, colours: Any, high: float, title: str) -> None:
         """A scale from 0 to `high` at the right, 62 pixels from the border."""

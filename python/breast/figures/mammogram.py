@@ -103,8 +103,9 @@ def _caption(image: Mammogram, curves: dict[str, list[Line]], size: np.ndarray) 
     if image.view == "CC":
         if len(asked) > 1:
             return "the points asked for; small white ring: nipple"
-        artificial = any(name.startswith("model's artificial") for name in curves)
-        return f"yellow ring: {'artificial tumour' if artificial else 'the point'}; small white ring: nipple"
+        place = next((words for start, words in (("model's artificial", "artificial tumour"), ("model's", "tumour"))
+                      if any(name.startswith(start) for name in curves)), "the point")
+        return f"yellow ring: {place}; small white ring: nipple"
     outside = sum(parts_inside(line.uv_mm, size)[1] for line in curves.get("curve", []))
     lost = f" ({outside:.0f} mm outside the image)" if outside >= 0.5 else ""
     if len(asked) > 1:
@@ -165,17 +166,20 @@ def _add_axes(panel: Panel, image: Mammogram, hanging: _Hanging, rings: Sequence
         x = panel.to_pixel(hanging(np.array([image.plate_edge_mm, 0])))[0]
         panel.line([(x, low[1]), (x, high[1])], Stroke((0.7, 0.7, 0.7), 1, (3, 6)))
         panel.text((x + 8 * outward, low[1] + 10), "plates from here", SMALL - 1, _DIM, rotation=90)
-    back = image.images["through_back"] != 0
+    back, wide = image.images["through_back"] != 0, False
     if back.any():
         blank = (back & ~(image.images["thickness"] > 0)).any()
         chest = low[0] + 6 if hanging.left else high[0] - 6
-        panel.text((chest, low[1] + 14), "even grey: unknown" if blank else "behind the model: fat or muscle", SMALL - 1, _DIM, align)
+        words = "even grey: unknown" if blank else "behind the model: fat or muscle"
+        wide = 0.6 * (SMALL - 1) * len(words) + 12 > high[0] - low[0]  # a narrow image takes them in two lines
+        for k, line in enumerate(words.split(": ")[::-1] if wide else [words]):
+            panel.text((chest, low[1] + 14 + 16 * k), line + (":" if k else ""), SMALL - 1, _DIM, align)
     inset = edge - 10 * outward
     panel.text((inset, high[1] - 18), f"{image.side[0].upper()} {image.view}", 21, WHITE, inner)
     panel.text((inset, high[1] - 42), "lateral" if image.view == "CC" else "superior", SMALL, WHITE, inner)
     # In a narrow picture above the words at the chest.
     below = "medial" if image.view == "CC" else "inferior"
-    heights = [low[1] + y for y in ((34, 54, 74) if high[0] - low[0] < 400 else (14, 34, 54))]
+    heights = [low[1] + y + 20 * wide for y in ((34, 54, 74) if high[0] - low[0] < 400 else (14, 34, 54))]
     panel.text((inset, free_height(heights, inset, -outward * 0.6 * SMALL * len(below), rings)), below, SMALL, WHITE, inner)
 
 

@@ -170,7 +170,7 @@ def draw(inputs: Inputs) -> Picture:
     add_sections(panel, shapes, height_of_nipple(first, first.imaged))
     add_landmarks(panel, shapes)
     side = picture.panel(0.5, 0, 1, 1)
-    side.caption("(b) silhouettes from the outer side; lengths are in space")
+    side.caption("(b) silhouettes from the outer side; lengths are three-dimensional")
     add_silhouettes(side, shapes)
     for drawn in (panel, side):
         drawn.scale_bar()

@@ -143,7 +143,7 @@ class Scene:
         glyphs.ScalingOff()
         mapper = vtkPolyDataMapper()
         mapper.SetInputConnection(glyphs.GetOutputPort())
-        shading = self._add(mapper, colour, points, through).GetProperty()
+        shading = self._add(mapper, colour, _widened(points, radius), through).GetProperty()
         shading.SetAmbient(0.25)
         shading.SetSpecular(0.3)
 
@@ -163,7 +163,7 @@ class Scene:
         tube.SetInputData(data)
         mapper = vtkPolyDataMapper()
         mapper.SetInputConnection(tube.GetOutputPort())
-        self._add(mapper, colour, points, through).GetProperty().SetAmbient(0.35)
+        self._add(mapper, colour, _widened(points, radius), through).GetProperty().SetAmbient(0.35)
 
     def _add(self, mapper: Any, colour: Colour | None, points: np.ndarray, through: bool) -> Any:
         actor = vtkActor()
@@ -242,6 +242,12 @@ def _draw_edges(shading: Any, colour: Colour, pixels: float) -> None:
     shading.EdgeVisibilityOn()
     shading.SetEdgeColor(colour)
     shading.SetLineWidth(pixels * SUPERSAMPLING)
+
+
+def _widened(points: np.ndarray, radius: float) -> np.ndarray:
+    """Points (n, 3) and those at a distance from them along the axes: what a ball or a tube reaches."""
+    away = radius * np.concatenate([np.zeros((1, 3)), np.eye(3), -np.eye(3)])
+    return (points + away[:, None]).reshape(-1, 3)
 
 
 def vtk_points(points: np.ndarray) -> Any:

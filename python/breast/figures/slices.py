@@ -19,7 +19,7 @@ from .outlines import joined
 from .silhouette import contours, gaussian
 
 _MARGIN_MM = 12
-_IN_PLANE_MM = 6  # a landmark farther from the plane is not marked in it
+_IN_PLANE_MM = 3  # a landmark farther from the plane is not marked in it: beside a nipple, which is some 10 mm wide, it would float in air
 _RASTER_MM = 0.6
 _SMOOTHING_MM, _SMOOTHING_VOXELS = 0.9, 0.6  # so that contours do not follow the steps of voxels
 _NEAR_BREAST_MM = 2.5
@@ -147,7 +147,7 @@ class Slices:
             panel.line([(x, through[1]), (x + 12, through[1])], dim)
         panel.text((10, height - 16), f"{letter} {plane.name}, {'xyz'[plane.axis]} = {self.through[plane.axis]:.0f} mm", LETTERS,
                    WHITE)
-        panel.scale_bar(WHITE)
+        panel.scale_bar(WHITE, either_side=True)
 
     def legend(self, planes: Sequence[Plane]) -> list[tuple[str, Stroke | None]]:
         entries: list[tuple[str, Stroke | None]] = [("skin", SKIN_LINE), ("chest wall", WALL_LINE),

@@ -24,7 +24,7 @@ from .patient import PatientImage
 
 BAR_MM = 20
 _AROUND_MM = 15  # of a slice about the breast
-_NEAR_MM = 6  # a landmark farther from a slice is not marked in it
+_NEAR_MM = 3  # a landmark farther from a slice is not marked in it: beside a nipple, which is some 10 mm wide, it would float in air
 _BESIDE_MM = 10  # of the patient's image about the simulated outline
 _ENDS = {"CC": ("lateral", "medial"), "MLO": ("superior", "inferior"), "ML": ("superior", "inferior")}
 _GAMMA = 0.8  # as in figures/slices.py

@@ -14,6 +14,8 @@ from ..study.views import NIPPLE_LINES_DIFFER_MM, nipple_lines
 
 _WORDS = Path(__file__).with_name("words.tsv")
 _UNKNOWN = 2  # the weight of a warning without a row
+_WHERE = {"reference": "in the shape without gravity", "supine": "in the supine shape", "cc": "between the plates",
+          "mlo": "between the plates"}
 
 
 @dataclass
@@ -49,10 +51,11 @@ def remarks_of(run: Path) -> list[Remark]:
             continue
         for text in map(one_line, StageReport.read(run / f"{stage}.json").texts("warnings")):
             weight, said = next(((weight, said) for pattern, weight, said in table if pattern.search(text)), (_UNKNOWN, text))
+            said = said.replace("{where}", _WHERE.get(stage, "in places"))
             remarks.setdefault(said, Remark(weight, said)).said.append(f"{stage}: {text}")
     cc, mlo = nipple_lines(run) or (0, 0)
     if abs(cc - mlo) > NIPPLE_LINES_DIFFER_MM:
-        said = (f"From the nipple, CC shows {cc:.0f} mm and MLO {mlo:.0f} mm of the breast; clinics accept a difference of "
+        said = (f"Behind the nipple, CC shows {cc:.0f} mm and MLO {mlo:.0f} mm of the breast; clinics accept a difference of "
                 f"{NIPPLE_LINES_DIFFER_MM} mm.")
         remarks[said] = Remark(2, said)
     return sorted(remarks.values(), key=lambda remark: remark.weight)

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 _TEMPLATES = Path(__file__).with_name("templates")
 _SCRIPTS = ("data", "lookup", "arc", "window", "view", "pins", "colours", "overlay", "marks", "slice", "body", "list", "readout",
             "gestures", "keys", "controls", "main")
-_TUMOUR_WORDS = {"none": "", "given": "the tumour of the MR, where the model has it",
+_TUMOUR_WORDS = {"none": "", "given": "the tumour of the MR, in a mammogram moved as the model says",
                  "artificial": "an artificial tumour, put there by the program: not a finding"}
 
 _ANIMATIONS = {"supine": "The breast while the patient turns from prone to supine, equilibrium by equilibrium",
@@ -188,8 +188,8 @@ def _pictures_of_patient(views: Views, lines: list[MatchedLine | None]) -> list[
 def _behind(views: Views) -> list[str]:
     """How the images show what lies behind the model, if they do."""
     behind = [image.images["thickness"][image.images["through_back"] != 0] for image, _ in views.pairs]
-    words = (("Even grey at the back of a mammogram: behind the model, where nothing is known.", any((mm <= 0).any() for mm in behind)),
-             ("At the back of a mammogram, what lies behind the model is drawn as fat, and behind muscle as muscle.",
+    words = (("Even grey at the back of a mammogram: the model has ended, and nothing is known there.", any((mm <= 0).any() for mm in behind)),
+             ("The model ends behind the breast: from there to the back of a mammogram, fat is drawn, or muscle where the model ends in muscle.",
               any((mm > 0).any() for mm in behind)))
     return [said for said, shown in words if shown]
 
@@ -236,8 +236,8 @@ def _answer(views: Views, lines: list[MatchedLine | None]) -> list[str]:
     without = _not_counted(views)
     if without and any(line and line.to_either_side_mm > 0 for line in lines):
         said.append(f"Not counted in the 90 %: {without}.")
-    return [*said, "The rings in both views mark its place in the MR, moved as the model says. A single mammogram does not show depth, hence the "
-            "line."]
+    return [*said, "The ring in each view is the tumour of the MR, moved as the model says. A single mammogram does not show depth: a place in "
+            "one view is therefore a line in the other."]
 
 
 def _not_counted(views: Views) -> str:
