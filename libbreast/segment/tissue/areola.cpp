@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "segment/tissue/areola.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/statistics/percentile.hpp"
+#include "segment/grid/filters.hpp"
+#include "segment/tissue/skin_patch.hpp"
+
+namespace breast {
+
+namespace {
+
+constexpr double skin_depth = 5;    // mm: an areola's skin has up to about as much
+constexpr double mean_width = 9;    // mm: the standard deviation of a disc of 36 mm across
+constexpr double front_reach = 60;  // mm: papillae stand up to 26 mm from the most anterior point
+// Areolae are up to 50 mm across: from there on nothing of them is in a mean.
+constexpr double beyond_areola = 25 + mean_width;
+// On real breasts, skin away from the areola exceeds the median by up to 0.33 mm (gland that
+// touches it by more), which is less than half of the areola's excess.
+constexpr double least_excess = 0.35, most_elsewhere = 0.6;
+
+/// A skin voxel: its place (mm from the box's first voxel, along its axes), its outward normal, the
+/// area of its surface and the brightness that is missing behind it.
+struct SkinSample {
+  std::array<int, 3> voxel;
+  Vec3 place, out;
+  double area, missing;
+};
+
+/// The part of a volume within `reach` of a place, mm.
+template <class Value>
+Volume<Value> part_around(const Volume<Value>& volume, const Vec3& patient, double reach) {
+  const Grid& whole = volume.grid;
+  const Vec3 at = whole.to_index(patient);
+  std::array<int, 3> first{};
+  Grid grid = whole;
+  for (int d = 0; d < 3; ++d) {
+    const double half = reach / whole.spacing[d];
+    first[d] = std::clamp(int(std::ceil(at[d] - half)), 0, whole.size[d] - 1);
+    const int last = std::clamp(int(std::floor(at[d] + half)), first[d], whole.size[d] - 1);
+    grid.size[d] = last - first[d] + 1;
+  }
+  grid.origin = whole.to_patient(Vec3(first[0], first[1], first[2]));
+  Volume<Value> part(grid);
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int j = 0; j < grid.size[1]; ++j) {
+      for (int i = 0; i < grid.size[0]; ++i)
+        part.at(i, j, k) = volume.at(first[0] + i, first[1] + j, first[2] + k);
+    }
+  }
+  return part;
+}
+
+/// Area vector (outward, grid axes) of a voxel's faces towards air.
+Vec3 area_towards_air(const Mask& body, int i, int j, int k) {
+  const Grid& grid = body.grid;
+  Vec3 area = Vec3::Zero();
+  for (const auto& step : face_neighbours) {
+    const int a = i + step[0], b = j + step[1], c = k + step[2];
+    if (!grid.contains(a, b, c) || body.at(a, b, c)) continue;
+    for (int d = 0; d < 3; ++d) area[d] += step[d] * grid.voxel_volume() / grid.spacing[d];
+  }
+  return area;
+}
+
+/// Direction in which the distance from the body grows; zero at the border of the grid.
+Vec3 outward_normal(const Volume<float>& distance, int i, int j, int k) {
+  const std::array<int, 3> at{i, j, k};
+  Vec3 slope;
+  for (int d = 0; d < 3; ++d) {
+    std::array<int, 3> behind = at, ahead = at;
+    --behind[d], ++ahead[d];
+    if (behind[d] < 0 || ahead[d] >= distance.grid.size[d]) return Vec3::Zero();
+    slope[d] =
+        (distance.at(ahead[0], ahead[1], ahead[2]) - distance.at(behind[0], behind[1], behind[2])) /
+        (2 * distance.grid.spacing[d]);
+  }
+  return slope.norm() > 0 ? Vec3(slope.normalized()) : Vec3::Zero();
+}
+
+/// Brightness (mm of fat) that is missing behind the skin's edge; negative where there is no edge.
+double missing_behind_edge(const Volume<float>& brightness, const Vec3& surface,
+                           const Vec3& inward) {
+  constexpr double edge = 0.25, step = 0.25, outside = 5, inside = 3;  // of fat; mm
+  double place = -outside;
+  const auto at = [&](double s) { return sample_linear(brightness, surface + s * inward, 0); };
+  if (!(at(place) < edge)) return -1;
+  while (place < inside && at(place) < edge) place += step;
+  if (!(place < inside)) return -1;
+  double missing = 0;
+  for (double s = 0.5 * step; s < skin_depth; s += step)
+    missing += step * (1 - std::clamp(at(place + s), 0.0, 1.0));
+  return missing;
+}
+
+std::vector<SkinSample> skin_samples(const Volume<float>& brightness, const Mask& breast,
+                                     const Mask& body, const Volume<float>& skin_distance) {
+  const Grid& grid = breast.grid;
+  const Volume<float> distance = gaussian(skin_distance, 2.5);
+  std::vector<SkinSample> samples;
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int j = 0; j < grid.size[1]; ++j) {
+      for (int i = 0; i < grid.size[0]; ++i) {
+        if (!breast.at(i, j, k)) continue;
+        const Vec3 faces = area_towards_air(body, i, j, k);
+        if (faces.isZero()) continue;
+        const Vec3 out = outward_normal(distance, i, j, k);
+        const double area = faces.dot(out);
+        if (!(area > 0)) continue;
+        const double missing = missing_behind_edge(brightness, grid.to_patient(Vec3(i, j, k)),
+                                                   -(grid.direction * out));
+        if (missing >= 0)
+          samples.push_back(
+              {{i, j, k}, grid.spacing.cwiseProduct(Vec3(i, j, k)), out, area, missing});
+      }
+    }
+  }
+  return samples;
+}
+
+/// Replaces what is missing by its average around each sample.
+void average(std::vector<SkinSample>& samples, const Grid& grid) {
+  Volume<float> area(grid), missing(grid);
+  for (const SkinSample& sample : samples) {
+    const auto& [i, j, k] = sample.voxel;
+    area.at(i, j, k) = float(sample.area);
+    missing.at(i, j, k) = float(sample.area * sample.missing);
+  }
+  area = gaussian(area, mean_width);
+  missing = gaussian(missing, mean_width);
+  for (SkinSample& sample : samples) {
+    const auto& [i, j, k] = sample.voxel;
+    sample.missing = missing.at(i, j, k) / area.at(i, j, k);
+  }
+}
+
+/// The skin's place under the centre of the samples whose excess is near the greatest, which a
+/// single voxel of a broad maximum does not show.
+Vec3 centre_of(const std::vector<SkinSample>& samples, const SkinSample& peak, const Mask& body,
+               double median_missing) {
+  constexpr double near = 20, share = 0.9, skin = 15;  // mm
+  const double foot = share * (peak.missing - median_missing) + median_missing;
+  Vec3 sum = Vec3::Zero();
+  double total = 0;
+  for (const SkinSample& sample : samples) {
+    if (!(sample.missing > foot && (sample.place - peak.place).norm() < near)) continue;
+    const double weight = sample.area * (sample.missing - foot);
+    sum += weight * sample.place;
+    total += weight;
+  }
+  const Vec3 centre = total > 0 ? Vec3(sum / total) : peak.place;
+  const std::vector<SkinFace> faces = skin_faces(body, centre, skin);
+  const TangentFrame frame = tangent_frame(faces, centre);
+  return frame.place(0, 0, quadric_through(faces, frame, 0, skin)[0]);
+}
+
+}  // namespace
+
+Areola find_areola(const Volume<float>& brightness, const Mask& breast, const Mask& body,
+                   const Volume<float>& skin_distance, const Vec3& front) {
+  const double reach = front_reach + 3 * mean_width;
+  const Mask near_body = part_around(body, front, reach);
+  std::vector<SkinSample> samples =
+      skin_samples(brightness, part_around(breast, front, reach), near_body,
+                   part_around(skin_distance, front, reach));
+  std::erase_if(samples, [](const SkinSample& sample) { return !(sample.out[1] < 0); });
+  Areola areola;
+  if (samples.empty()) return areola;
+  std::vector<double> all;
+  for (const SkinSample& sample : samples) all.push_back(sample.missing);
+  const double usual = median(all);
+  average(samples, near_body.grid);
+  const Grid& grid = near_body.grid;
+  const Vec3 start = grid.spacing.cwiseProduct(grid.to_index(front));
+  std::erase_if(samples, [&](const SkinSample& sample) {
+    return !((sample.place - start).norm() < front_reach);
+  });
+  if (samples.empty()) return areola;
+  const SkinSample peak = *std::max_element(
+      samples.begin(), samples.end(),
+      [](const auto& one, const auto& other) { return one.missing < other.missing; });
+  const Vec3 centre = centre_of(samples, peak, near_body, usual);
+  areola.centre = grid.to_patient(centre.cwiseQuotient(grid.spacing));
+  areola.excess = peak.missing - usual;
+  for (const SkinSample& sample : samples) {
+    if ((sample.place - centre).norm() > beyond_areola)
+      areola.elsewhere = std::max(areola.elsewhere, sample.missing - usual);
+  }
+  areola.found = areola.excess > least_excess && areola.elsewhere < most_elsewhere * areola.excess;
+  return areola;
+}
+
+}  // namespace breast

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Detection of the areola by its skin, for breasts whose nipple does not stand out.
+#pragma once
+
+#include "core/units.hpp"
+#include "segment/grid/grid_ops.hpp"
+
+namespace breast {
+
+struct Areola {
+  bool found = false;
+  Vec3 centre{0, 0, 0};  ///< patient mm, on the skin
+  double excess = 0;     ///< mm of missing fat, more than on the median of the skin
+  double elsewhere = 0;  ///< the greatest excess farther away than an areola reaches, mm
+};
+/// Where the skin of a prone breast's front is thickest or darkest. At every point of the skin, the
+/// brightness that is missing in its outermost 5 mm is integrated along the normal, and averaged
+/// with a Gaussian of 9 mm, about the width of an areola. Its skin is thicker, and the ducts meet
+/// behind it. `found`: within 60 mm of `front` (patient mm), one place exceeds the median skin by at
+/// least 0.35 mm, and no place 35 mm away from it has more than 0.6 of its excess.
+///
+/// Gland that touches the skin looks the same. `brightness` and `skin_distance` are those of
+/// skin_thickness(): fat is 1, and bright.
+Areola find_areola(const Volume<float>& brightness, const Mask& breast, const Mask& body,
+                   const Volume<float>& skin_distance, const Vec3& front);
+
+}  // namespace breast
