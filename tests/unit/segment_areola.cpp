@@ -20,17 +20,19 @@ Vec3 on_skin(const SyntheticScan& scan, double aside, double up) {
   return scan.nipple(1) + Vec3(aside, scan.depth * (1 - std::sqrt(1 - share * share)), up);
 }
 
-/// A smooth breast in skin of 1.5 mm, with round patches of skin of 5 mm.
+/// A smooth breast in skin of 1.5 mm, with round patches of thicker skin.
 struct ScanWithSkin : SyntheticScan {
   struct Patch {
     double aside = 0, up = 0, radius = 18;  ///< mm, of the left breast from its front
+    double thickness = 5;                   ///< mm
   };
   std::vector<Patch> patches;
 
   double thickness(const Vec3& p) const {
     const Vec3 on_left(std::abs(p[0]), p[1], p[2]);
     for (const Patch& patch : patches)
-      if ((on_left - on_skin(*this, patch.aside, patch.up)).norm() < patch.radius) return 5;
+      if ((on_left - on_skin(*this, patch.aside, patch.up)).norm() < patch.radius)
+        return patch.thickness;
     return 1.5;
   }
   Volume<float> image() const {
@@ -82,6 +84,15 @@ TEST(Areola, OfEvenSkinIsNoneAndTheMostAnteriorPointIsTaken) {
   EXPECT_NE(about_nipple(result).find("the most anterior point of the smoothed skin is taken"),
             std::string::npos)
       << about_nipple(result);
+}
+
+TEST(Areola, IsNotWhereGlandTouchesTheSkin) {
+  ScanWithSkin scan;
+  scan.patches = {{22, -12, 18, 14}};
+  const Segmentation result = segmented(scan, Side::left);
+  EXPECT_GT(result.areola.excess, 0.35);
+  EXPECT_FALSE(result.areola.found) << result.areola.behind;
+  EXPECT_LT((result.labels.landmarks.at("nipple") - scan.nipple(1)).norm(), 6);
 }
 
 // Two such places cannot be told apart.

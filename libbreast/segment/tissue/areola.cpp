@@ -22,12 +22,20 @@ constexpr double beyond_areola = 25 + mean_width;
 // touches it by more), which is less than half of the areola's excess.
 constexpr double least_excess = 0.35, most_elsewhere = 0.6;
 
+// Gland has 0.3 to 0.6 of the brightness of fat: below this, gland is most of what lies behind.
+constexpr double least_behind = 0.7;
+
+struct Profile {
+  double missing = -1;  ///< brightness in the skin's depth, mm of fat; negative without an edge
+  double behind = 0;    ///< mean brightness in as much depth behind that
+};
 /// A skin voxel: its place (mm from the box's first voxel, along its axes), its outward normal, the
-/// area of its surface and the brightness that is missing behind it.
+/// area of its surface and the brightness behind it.
 struct SkinSample {
   std::array<int, 3> voxel;
   Vec3 place, out;
-  double area, missing;
+  double area;
+  Profile profile;
 };
 
 /// The part of a volume within `reach` of a place, mm.
@@ -81,19 +89,24 @@ Vec3 outward_normal(const Volume<float>& distance, int i, int j, int k) {
   return slope.norm() > 0 ? Vec3(slope.normalized()) : Vec3::Zero();
 }
 
-/// Brightness (mm of fat) that is missing behind the skin's edge; negative where there is no edge.
-double missing_behind_edge(const Volume<float>& brightness, const Vec3& surface,
-                           const Vec3& inward) {
+Profile profile_behind_edge(const Volume<float>& brightness, const Vec3& surface,
+                            const Vec3& inward) {
   constexpr double edge = 0.25, step = 0.25, outside = 5, inside = 3;  // of fat; mm
+  Profile profile;
   double place = -outside;
   const auto at = [&](double s) { return sample_linear(brightness, surface + s * inward, 0); };
-  if (!(at(place) < edge)) return -1;
+  if (!(at(place) < edge)) return profile;
   while (place < inside && at(place) < edge) place += step;
-  if (!(place < inside)) return -1;
-  double missing = 0;
-  for (double s = 0.5 * step; s < skin_depth; s += step)
-    missing += step * (1 - std::clamp(at(place + s), 0.0, 1.0));
-  return missing;
+  if (!(place < inside)) return profile;
+  profile.missing = 0;
+  for (double s = 0.5 * step; s < 2 * skin_depth; s += step) {
+    const double here = std::clamp(at(place + s), 0.0, 1.0);
+    if (s < skin_depth)
+      profile.missing += step * (1 - here);
+    else
+      profile.behind += step * here / skin_depth;
+  }
+  return profile;
 }
 
 std::vector<SkinSample> skin_samples(const Volume<float>& brightness, const Mask& breast,
@@ -110,30 +123,33 @@ std::vector<SkinSample> skin_samples(const Volume<float>& brightness, const Mask
         const Vec3 out = outward_normal(distance, i, j, k);
         const double area = faces.dot(out);
         if (!(area > 0)) continue;
-        const double missing = missing_behind_edge(brightness, grid.to_patient(Vec3(i, j, k)),
-                                                   -(grid.direction * out));
-        if (missing >= 0)
+        const Profile profile = profile_behind_edge(brightness, grid.to_patient(Vec3(i, j, k)),
+                                                    -(grid.direction * out));
+        if (profile.missing >= 0)
           samples.push_back(
-              {{i, j, k}, grid.spacing.cwiseProduct(Vec3(i, j, k)), out, area, missing});
+              {{i, j, k}, grid.spacing.cwiseProduct(Vec3(i, j, k)), out, area, profile});
       }
     }
   }
   return samples;
 }
 
-/// Replaces what is missing by its average around each sample.
+/// Replaces both of each profile by their averages around it.
 void average(std::vector<SkinSample>& samples, const Grid& grid) {
-  Volume<float> area(grid), missing(grid);
+  Volume<float> area(grid), missing(grid), behind(grid);
   for (const SkinSample& sample : samples) {
     const auto& [i, j, k] = sample.voxel;
     area.at(i, j, k) = float(sample.area);
-    missing.at(i, j, k) = float(sample.area * sample.missing);
+    missing.at(i, j, k) = float(sample.area * sample.profile.missing);
+    behind.at(i, j, k) = float(sample.area * sample.profile.behind);
   }
   area = gaussian(area, mean_width);
   missing = gaussian(missing, mean_width);
+  behind = gaussian(behind, mean_width);
   for (SkinSample& sample : samples) {
     const auto& [i, j, k] = sample.voxel;
-    sample.missing = missing.at(i, j, k) / area.at(i, j, k);
+    sample.profile.missing = missing.at(i, j, k) / area.at(i, j, k);
+    sample.profile.behind = behind.at(i, j, k) / area.at(i, j, k);
   }
 }
 
@@ -142,12 +158,12 @@ void average(std::vector<SkinSample>& samples, const Grid& grid) {
 Vec3 centre_of(const std::vector<SkinSample>& samples, const SkinSample& peak, const Mask& body,
                double median_missing) {
   constexpr double near = 20, share = 0.9, skin = 15;  // mm
-  const double foot = share * (peak.missing - median_missing) + median_missing;
+  const double foot = share * (peak.profile.missing - median_missing) + median_missing;
   Vec3 sum = Vec3::Zero();
   double total = 0;
   for (const SkinSample& sample : samples) {
-    if (!(sample.missing > foot && (sample.place - peak.place).norm() < near)) continue;
-    const double weight = sample.area * (sample.missing - foot);
+    if (!(sample.profile.missing > foot && (sample.place - peak.place).norm() < near)) continue;
+    const double weight = sample.area * (sample.profile.missing - foot);
     sum += weight * sample.place;
     total += weight;
   }
@@ -170,7 +186,7 @@ Areola find_areola(const Volume<float>& brightness, const Mask& breast, const Ma
   Areola areola;
   if (samples.empty()) return areola;
   std::vector<double> all;
-  for (const SkinSample& sample : samples) all.push_back(sample.missing);
+  for (const SkinSample& sample : samples) all.push_back(sample.profile.missing);
   const double usual = median(all);
   average(samples, near_body.grid);
   const Grid& grid = near_body.grid;
@@ -179,17 +195,20 @@ Areola find_areola(const Volume<float>& brightness, const Mask& breast, const Ma
     return !((sample.place - start).norm() < front_reach);
   });
   if (samples.empty()) return areola;
-  const SkinSample peak = *std::max_element(
-      samples.begin(), samples.end(),
-      [](const auto& one, const auto& other) { return one.missing < other.missing; });
+  const SkinSample peak =
+      *std::max_element(samples.begin(), samples.end(), [](const auto& one, const auto& other) {
+        return one.profile.missing < other.profile.missing;
+      });
   const Vec3 centre = centre_of(samples, peak, near_body, usual);
   areola.centre = grid.to_patient(centre.cwiseQuotient(grid.spacing));
-  areola.excess = peak.missing - usual;
+  areola.excess = peak.profile.missing - usual;
   for (const SkinSample& sample : samples) {
     if ((sample.place - centre).norm() > beyond_areola)
-      areola.elsewhere = std::max(areola.elsewhere, sample.missing - usual);
+      areola.elsewhere = std::max(areola.elsewhere, sample.profile.missing - usual);
   }
-  areola.found = areola.excess > least_excess && areola.elsewhere < most_elsewhere * areola.excess;
+  areola.behind = peak.profile.behind;
+  areola.found = areola.excess > least_excess && areola.behind > least_behind &&
+                 areola.elsewhere < most_elsewhere * areola.excess;
   return areola;
 }
 

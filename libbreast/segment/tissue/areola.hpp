@@ -12,15 +12,16 @@ struct Areola {
   Vec3 centre{0, 0, 0};  ///< patient mm, on the skin
   double excess = 0;     ///< mm of missing fat, more than on the median of the skin
   double elsewhere = 0;  ///< the greatest excess farther away than an areola reaches, mm
+  double behind = 0;     ///< mean brightness behind the skin there, of fat
 };
 /// Where the skin of a prone breast's front is thickest or darkest. At every point of the skin, the
 /// brightness that is missing in its outermost 5 mm is integrated along the normal, and averaged
-/// with a Gaussian of 9 mm, about the width of an areola. Its skin is thicker, and the ducts meet
-/// behind it. `found`: within 60 mm of `front` (patient mm), one place exceeds the median skin by at
-/// least 0.35 mm, and no place 35 mm away from it has more than 0.6 of its excess.
+/// with a Gaussian of 9 mm, about the width of an areola, whose skin is thicker. `found`: within
+/// 60 mm of `front` (patient mm), the greatest mean exceeds the median of the skin by at least
+/// 0.35 mm, no place 34 mm away from it has more than 0.6 of its excess, and the 5 mm behind have
+/// at least 0.7 of the brightness of fat: gland that touches the skin cannot be told from an areola.
 ///
-/// Gland that touches the skin looks the same. `brightness` and `skin_distance` are those of
-/// skin_thickness(): fat is 1, and bright.
+/// `brightness` and `skin_distance` are those of skin_thickness(): fat is 1, and bright.
 Areola find_areola(const Volume<float>& brightness, const Mask& breast, const Mask& body,
                    const Volume<float>& skin_distance, const Vec3& front);
 
