@@ -90,7 +90,7 @@ TEST(Areola, IsNotWhereGlandTouchesTheSkin) {
   ScanWithSkin scan;
   scan.patches = {{22, -12, 18, 14}};
   const Segmentation result = segmented(scan, Side::left);
-  EXPECT_GT(result.areola.excess, 0.35);
+  EXPECT_GT(result.areola.excess, 0.5);
   EXPECT_FALSE(result.areola.found) << result.areola.behind;
   EXPECT_LT((result.labels.landmarks.at("nipple") - scan.nipple(1)).norm(), 6);
 }

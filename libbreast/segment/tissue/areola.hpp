@@ -18,7 +18,7 @@ struct Areola {
 /// brightness that is missing in its outermost 5 mm is integrated along the normal, and averaged
 /// with a Gaussian of 9 mm, about the width of an areola, whose skin is thicker. `found`: within
 /// 60 mm of `front` (patient mm), the greatest mean exceeds the median of the skin by at least
-/// 0.35 mm, no place 34 mm away from it has more than 0.6 of its excess, and the 5 mm behind have
+/// 0.5 mm, no place 34 mm away from it has more than 0.6 of its excess, and the 5 mm behind have
 /// at least 0.7 of the brightness of fat: gland that touches the skin cannot be told from an areola.
 ///
 /// `brightness` and `skin_distance` are those of skin_thickness(): fat is 1, and bright.
