@@ -122,7 +122,7 @@ Nipple nipple_of(const Work& work, Segmentation& result) {
       result.kind != Contrast::fat_bright || result.also.used)
     return nipple;
   result.areola =
-      find_areola(work.brightness, work.breast, work.body.mask, work.skin_distance, nipple.extreme);
+      find_areola(work.brightness, work.breast, work.body.mask, work.skin_distance, nipple.tip);
   if (!result.areola.found) return nipple;
   nipple.tip = nipple.base = result.areola.centre;
   nipple.from_extreme = (nipple.tip - nipple.extreme).norm();

@@ -28,6 +28,12 @@ struct ScanWithSkin : SyntheticScan {
   };
   std::vector<Patch> patches;
 
+  explicit ScanWithSkin(double slices = 3) {
+    grid.size[2] = int(152 / slices);
+    grid.spacing[2] = slices;
+    grid.origin[2] = -0.5 * (grid.size[2] - 1) * slices;
+  }
+
   double thickness(const Vec3& p) const {
     const Vec3 on_left(std::abs(p[0]), p[1], p[2]);
     for (const Patch& patch : patches)
@@ -93,6 +99,14 @@ TEST(Areola, IsNotWhereGlandTouchesTheSkin) {
   EXPECT_GT(result.areola.excess, 0.5);
   EXPECT_FALSE(result.areola.found) << result.areola.behind;
   EXPECT_LT((result.labels.landmarks.at("nipple") - scan.nipple(1)).norm(), 6);
+}
+
+TEST(Areola, IsNotSoughtInThickSlices) {
+  ScanWithSkin scan(5);
+  scan.patches = {{22, -12}};
+  const Segmentation result = segmented(scan, Side::left);
+  EXPECT_FALSE(result.areola.found);
+  EXPECT_NE(about_nipple(result).find("most anterior point"), std::string::npos);
 }
 
 // Two such places cannot be told apart.

@@ -20,6 +20,7 @@ struct Areola {
 /// 60 mm of `front` (patient mm), the greatest mean exceeds the median of the skin by at least
 /// 0.5 mm, no place 34 mm away from it has more than 0.6 of its excess, and the 5 mm behind have
 /// at least 0.7 of the brightness of fat: gland that touches the skin cannot be told from an areola.
+/// Nothing is found in voxels longer than 3 mm.
 ///
 /// `brightness` and `skin_distance` are those of skin_thickness(): fat is 1, and bright.
 Areola find_areola(const Volume<float>& brightness, const Mask& breast, const Mask& body,
