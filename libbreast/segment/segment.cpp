@@ -115,6 +115,27 @@ double enclosed_dark_ml(const Work& work) {
   return count * work.scan.grid.voxel_volume() / mm3_per_ml;
 }
 
+/// The papilla or, where none stands out of a prone breast, the areola if its skin shows it. Only where fat is bright is skin dark.
+Nipple nipple_of(const Work& work, Segmentation& result) {
+  Nipple nipple = find_nipple(work.breast, work.body.mask, result.posture);
+  if (result.posture != Posture::prone || nipple.height > 0 ||
+      result.kind != Contrast::fat_bright || result.also.used)
+    return nipple;
+  result.areola =
+      find_areola(work.brightness, work.breast, work.body.mask, work.skin_distance, nipple.tip);
+  if (!result.areola.found) return nipple;
+  nipple.tip = nipple.base = result.areola.centre;
+  nipple.from_extreme = (nipple.tip - nipple.extreme).norm();
+  return nipple;
+}
+
+/// What is taken for a nipple that does not stand out.
+std::string instead_of_papilla(const Segmentation& result) {
+  if (!result.areola.found) return "the most anterior point of the smoothed skin";
+  return message("the middle of the thickest and darkest skin, which is probably the areola, ",
+                 std::lround(result.nipple_from_extreme), " mm from the most anterior point,");
+}
+
 /// What a reader of the result should look at, but for its extent.
 void find_doubts(Segmentation& result, const Work& work) {
   if (result.wall_confident_percent < 80) {
@@ -171,9 +192,9 @@ void find_doubts(Segmentation& result, const Work& work) {
                 "backward assumes that it hangs freely"));
   }
   if (result.posture == Posture::prone && !(result.papilla_height > 0)) {
-    result.doubts.push_back(
-        "nothing stands out of the skin near the front of the breast: the most anterior point of the smoothed skin is taken for the nipple; "
-        "check it (--overlay)");
+    result.doubts.push_back(message(
+        "nothing stands out of the skin near the front of the breast: ", instead_of_papilla(result),
+        " is taken for the nipple; check it (--overlay)"));
   }
 }
 
@@ -558,7 +579,7 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
     result.muscle_back_percent = 100 * end_muscle(result.labels, *options.wall_labels);
   result.labels.midline_mm =
       work.scan.grid.to_patient(Vec3(work.torso.midline, 0, 0.5 * work.scan.grid.size[2]))[0];
-  const Nipple nipple = find_nipple(work.breast, work.body.mask, options.posture);
+  const Nipple nipple = nipple_of(work, result);
   result.labels.landmarks["nipple"] = nipple.tip;
   result.nipple_base = nipple.base;
   result.papilla_height = nipple.height;

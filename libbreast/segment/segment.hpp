@@ -13,6 +13,7 @@
 #include "core/units.hpp"
 #include "image/label_volume.hpp"
 #include "segment/contrast/evidence.hpp"
+#include "segment/tissue/areola.hpp"
 #include "segment/tissue/tissue.hpp"
 #include "surface/tri_mesh.hpp"
 
@@ -94,6 +95,7 @@ struct Segmentation {
   double compact_dark_mm = 0;       ///< radius of the largest ball within fibroglandular tissue
   double lost_edges_percent = 0;    ///< of the edges of brightness (tissue/lost_edges.hpp)
   std::vector<std::string> doubts;  ///< results that the user should check
+  Areola areola;                    ///< sought where no papilla stands out
 };
 
 /// Throws Error (input) saying which stage failed on this scan and what to try.

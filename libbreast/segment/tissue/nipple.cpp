@@ -185,6 +185,7 @@ Nipple find_nipple(const Mask& breast, const Mask& body, Posture posture) {
   nipple.base = patient(base);
   nipple.height = height;
   nipple.from_extreme = (tip - apex.extreme).norm();
+  nipple.extreme = patient(apex.extreme);
   return nipple;
 }
 

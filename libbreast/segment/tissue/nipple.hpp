@@ -12,6 +12,7 @@ struct Nipple {
   Vec3 base{0, 0, 0};       ///< patient mm: where the papilla's axis meets the areola's surface
   double height = 0;        ///< mm from base to tip; 0 on a smooth dome
   double from_extreme = 0;  ///< mm between the tip and the most anterior point of the breast
+  Vec3 extreme{0, 0, 0};    ///< patient mm: that point
 };
 /// Starts from the most convex skin point (least body within 6 mm, by a Gaussian): for a prone scan
 /// within 25 mm of the most anterior point, for a supine scan anywhere on the breast more than 15
