@@ -45,7 +45,7 @@ for name in $(awk -F '\t' '/^#/ || $1 ~ /^(goal|setting)$/ || $NF == "-" { next 
   case $name in *=) end= ;; *) end='( |$)' ;; esac
   grep -qE "^  $name$end" "$work/out" || fail "help lists $name"
 done
-grep -q '^  ELEMENTS=.*(16)' "$work/out" && grep -q '^  SEGMENT=.*(segment)' "$work/out" || fail "help has plain defaults"
+grep -q '^  ELEMENTS=.*(default: 16)' "$work/out" && grep -q '^  SEGMENT=.*(default: segment)' "$work/out" || fail "help has plain defaults"
 pass "the help lists targets and settings"
 
 # Defaults, which depend on the case, are those of settings, once each.
