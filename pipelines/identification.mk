@@ -14,7 +14,7 @@ ifeq ($(SUPINE),phantom)
 supine_truth := $(PHANTOM_SUPINE:.nrrd=-truth)/landmarks.tsv
 $(eval $(call phantom_scan,$(PRESET)-supine,--posture supine --misalign 4$(comma)2))
 endif
-second-labels_record := $(RUN)/second/.labels.settings
+second-labels_record := $(RUN)/second/.second-labels.settings
 second-labels_settings := $(SEGMENT) $(content_SUPINE) $(call named,$(supine_scan)) --side $(SIDE)
 $(RUN)/second/labels.vtkhdf $(RUN)/second/points.vtp &: $(supine_scan) $(SEGMENT) $(call changed,second-labels)
 	$(call stage,second-labels) $(SEGMENT) $(supine_scan) $(RUN)/second/labels.vtkhdf --side $(SIDE) --posture supine --points $(RUN)/second/points.vtp \
