@@ -10,7 +10,7 @@ of_run := slices $(of_points) outlines $(of_both) pressure force-thickness cc-ma
 FIGURES := $(call pictures,$(of_run)) $(if $(SUPINE),$(F)/postures.png)
 on_scan = --scan $(MR) --labels $(RUN)/labels.vtkhdf $(addprefix --series ,$(SERIES))
 # $(call draw,PICTURES,FILES,OPTIONS); no picture is named: all that the files allow, without those that could not be made
-draw = mkdir -p $(F) && $(RENDER) $(if $1,$2,$$(ls -d $2 2> /dev/null)) --all $(F) $(if $1,--only $(subst $(eval) ,$(comma),$(strip $1))) $3
+draw = mkdir -p $(F) && $(RENDER) $(if $1,$2,$$(ls -d $2 2> /dev/null)) --all $(F) $(if $1,--only $(subst $(space),$(comma),$(strip $1))) $3
 figure_files := $(addprefix $(RUN)/,geometry.vtkhdf points.vtp mesh.vtkhdf reference.vtkhdf supine.vtkhdf cc.vtkhdf mlo.vtkhdf cc.vti mlo.vti) $(CURVE)
 $(call pictures,$(of_run)) &: $(figure_files) $(RUN)/labels.vtkhdf $(RENDER)
 	@$(call draw,,$(figure_files),$(on_scan))
@@ -21,7 +21,9 @@ files_of = $(addprefix $(RUN)/,$1)
 # How the breast moves: STATES equilibria while gravity turns from prone to supine, and while the plates close, each an animated
 # picture. The last equilibrium of each is that of the chain, which stays as it is.
 of_states := $(addprefix $(RUN)/states/,supine.vtkhdf cc.vtkhdf mlo.vtkhdf)
-$(foreach shape,supine cc mlo,$(eval $(shape)-states_settings = $$($(shape)_settings) --states $$(STATES)))
+supine-states_settings = $(supine_settings) --states $(STATES)
+cc-states_settings = $(cc_settings) --states $(STATES)
+mlo-states_settings = $(mlo_settings) --states $(STATES)
 $(RUN)/states/supine.vtkhdf: $(RUN)/reference.vtkhdf $(FORWARD) $(MADE_MATERIALS) $(call changed,supine-states)
 	@mkdir -p $(@D)
 	$(call stage,supine-states) $(FORWARD) $< $@ --posture supine $(model) --states $(STATES) $(common)

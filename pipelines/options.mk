@@ -14,7 +14,6 @@ $(call said,$(shell $(BIN)/cases check $(PIPELINES) $(if $(planning),0,$$PPID) $
 content = $(foreach f,$(wildcard $(filter-out $(RUNS)/%,$1)),$(shell [ ! -f $f ] || sha256sum < $f | cut -c 1-12))
 content_MATERIALS := $(call content,$(call set_of,$(MATERIALS)))
 content_TUMOUR := $(call content,$(TUMOUR))
-$(foreach s,FAT ALSO CHEST_WALL LANDMARKS MAMMOGRAMS SUPINE,$(eval content_$s := $$(call content,$$(subst $$(comma), ,$$($s)))))
 
 # With landmarks in a second posture, or a supine scan of the same patient, the set MATERIALS is the prior, and the chain runs with the
 # set that `identify` finds.
@@ -63,7 +62,7 @@ slopes_of := fat,fibroglandular,skin
 model = $(MECHANICS) $(SUPPORT)
 labels_options = --side $(SIDE) $(addprefix --series ,$(SERIES)) $(addprefix --fat ,$(FAT)) $(addprefix --also ,$(ALSO)) \
   $(addprefix --chest-wall ,$(CHEST_WALL)) $(SEGMENT_OPTIONS)
-labels_settings = $(SEGMENT) $(call named,$(MR)) $(labels_options) $(content_FAT) $(content_ALSO) $(content_CHEST_WALL)
+labels_settings = $(SEGMENT) $(call named,$(MR)) $(labels_options) $(call content,$(FAT) $(ALSO) $(CHEST_WALL))
 geometry_settings = $(FIT_HERMITE) $(FIT_OPTIONS)
 mesh_options = $(HEXMESH_OPTIONS) $(if $(findstring --tumour,$(HEXMESH_OPTIONS)),,--tumour $(TUMOUR))
 mesh_settings = $(HEXMESH) $(mesh_options) $(content_TUMOUR)

@@ -2,7 +2,7 @@
 # What is made of the chain of Makefile.pipeline: displacements, errors against the phantom's truth, the summary; the page of both views,
 # the run for 3D Slicer, expected values, and one self-contained report.
 CHAIN_FILES := $(addprefix $(RUN)/,labels.vtkhdf geometry.vtkhdf mesh.vtkhdf reference.vtkhdf \
-  supine.vtkhdf cc.vtkhdf mlo.vtkhdf cc.vti mlo.vti $(if $(no_tumour),,curve.vtp) $(if $(PAPER),$(if $(no_tumour),lookup.h5 page.html),lookup.h5 page.html))
+  supine.vtkhdf cc.vtkhdf mlo.vtkhdf cc.vti mlo.vti $(if $(no_tumour),,curve.vtp) $(if $(and $(PAPER),$(CURVE)),,lookup.h5 page.html))
 
 # Material sets: of the model without gland, in which the law of fat replaces that of fibroglandular tissue, and of a row of Table VIII.
 $(RUN)/fat-only.tsv: $(whole_set)
@@ -65,7 +65,7 @@ $(RUN)/lookup.h5: $(both_views) $(derivatives) $(BIN)/match-lookup $(call change
 ifneq ($(MAMMOGRAMS),)
 mammograms := $(subst $(comma), ,$(MAMMOGRAMS))
 of_patient := $(addprefix $(RUN)/patient,.json -cc.png -mlo.png)
-patient_settings := $(CC2MLO) $(call named,$(firstword $(mammograms))) $(call named,$(lastword $(mammograms))) $(content_MAMMOGRAMS)
+patient_settings := $(CC2MLO) $(call named,$(firstword $(mammograms))) $(call named,$(lastword $(mammograms))) $(call content,$(mammograms))
 $(of_patient) &: $(both_views) $(mammograms) $(CC2MLO) $(call changed,patient)
 	$(call of_both_views,patient) $(CC2MLO) $(both_views) $(RUN)/patient.vtp --grid 1 --table $(RUN)/patient.tsv --cc-image $(firstword $(mammograms)) \
 	  --mlo-image $(lastword $(mammograms)) --cc-hung $(RUN)/patient-cc.png --mlo-hung $(RUN)/patient-mlo.png --report $(RUN)/patient.json $(share)
