@@ -42,6 +42,9 @@ MR_FILES := $(MR) $(if $(wildcard $(MR)/.),$(wildcard $(MR)/*))
 MADE_TUMOUR := $(filter $(RUNS)/%,$(TUMOUR))
 MADE_MATERIALS := $(filter $(RUN)/%,$(MATERIALS))
 MATERIAL_TABLE := $(call set_of,$(MATERIALS))
+# Without a tumour, the chain ends with the curves of all CC points and their page instead of one curve.
+landmarks := $(if $(no_tumour),,tumour$(comma))nipple
+CURVE := $(if $(no_tumour),,$(RUN)/curve.vtp)
 # What only the run of a tumour has: another mesh may have none.
 of_a_tumour := $(addprefix $(RUN)/,curve.vtp curve.tsv curve.json .curve.settings band.vtp band.tsv band-curve.tsv band.json \
   figures/*-matching.png slicer/scene.mrml slicer/column-* slicer/curve-*)

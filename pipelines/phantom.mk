@@ -3,9 +3,6 @@
 # that the chain never uses.
 # The preset `paper` was fitted to results of this chain; tabulate marks the rows to which it was fitted.
 export CALIBRATED := $(if $(TRUTH),$(if $(filter paper,$(PRESET)),$(PHANTOM_MR:.nrrd=.json) $(SIDE)))
-# Without a tumour, the chain ends with the curves of all CC points and their page instead of one curve.
-landmarks := $(if $(no_tumour),,tumour$(comma))nipple
-CURVE := $(if $(no_tumour),,$(RUN)/curve.vtp)
 
 # $(call phantom_scan,NAME,OPTIONS): the program that makes the scan RUNS/phantom/NAME.nrrd and its truth NAME-truth.
 phantom_scan = $(BIN)/phantom $(RUNS)/phantom/$1.nrrd --preset $(PRESET) $2 --truth $(RUNS)/phantom/$1-truth $(PHANTOM_OPTIONS) \

@@ -2,7 +2,7 @@
 # What is made of the chain of Makefile.pipeline: displacements, errors against the phantom's truth, the summary; the page of both views,
 # the run for 3D Slicer, expected values, and one self-contained report.
 CHAIN_FILES := $(addprefix $(RUN)/,labels.vtkhdf geometry.vtkhdf mesh.vtkhdf reference.vtkhdf \
-  supine.vtkhdf cc.vtkhdf mlo.vtkhdf cc.vti mlo.vti $(if $(no_tumour),,curve.vtp) $(if $(and $(PAPER),$(CURVE)),,lookup.h5 page.html))
+  supine.vtkhdf cc.vtkhdf mlo.vtkhdf cc.vti mlo.vti) $(CURVE) $(addprefix $(RUN)/,$(if $(and $(PAPER),$(CURVE)),,lookup.h5 page.html))
 
 # Material sets: of the model without gland, in which the law of fat replaces that of fibroglandular tissue, and of a row of Table VIII.
 $(RUN)/fat-only.tsv: $(whole_set)
