@@ -8,7 +8,6 @@ CHAIN_FILES := $(addprefix $(RUN)/,labels.vtkhdf geometry.vtkhdf mesh.vtkhdf ref
 $(RUN)/fat-only.tsv: $(whole_set)
 $(RUN)/columns.tsv: $(PIPELINES)/materials/seed2008.tsv
 $(RUN)/fat-only.tsv $(RUN)/columns.tsv:
-	@mkdir -p $(@D)
 	$(call table,$(tabulate) set $(basename $(@F)) $<)
 
 # The same with the lateral cut held, which shows the effect of this boundary condition at the landmarks;
@@ -21,7 +20,7 @@ $(RUN)/supine-cut-fixed.vtkhdf: $(RUN)/reference-cut-fixed.vtkhdf $(FORWARD)
 	$(call stage,supine-cut-fixed) $(FORWARD) $< $@ --posture supine $(MECHANICS) --cut fixed --estimate none $(common)
 
 # Tables come from stdout; a rename makes them complete or absent: $(call table,COMMAND).
-table = $1 > $@.part && mv $@.part $@
+table = mkdir -p $(@D) && $1 > $@.part && mv $@.part $@
 SHOWN := $(addprefix $(RUN)/,mesh.vtkhdf reference.vtkhdf supine.vtkhdf)
 displacements_settings := $(BIN)/probe $(landmarks)
 $(RUN)/displacements.tsv: $(SHOWN) $(addprefix $(RUN)/,cc.vtkhdf mlo.vtkhdf) $(BIN)/probe $(call changed,displacements)

@@ -85,18 +85,15 @@ gallery: chain
 
 # How the compressed shapes converge with the mesh (studies/convergence.tsv).
 $(TABLES_OF_PAGE)/compression-convergence.tsv: $(call results,convergence,$(convergence_variants),cc mlo) $(BIN)/tabulate
-	@mkdir -p $(@D)
 	$(call table,$(tabulate) convergence $(call study_dir,convergence) $(convergence_variants))
 	$(call made_by,$<)
 
 # The displacements to which the preset was fitted and those of its truth, with those of the chain as solved and as printed.
 $(TABLES_OF_PAGE)/calibration.tsv: $(RUN)/displacements.tsv $(base_printed) $(PHANTOM_MR) $(BIN)/tabulate
-	@mkdir -p $(@D)
 	$(call table,$(tabulate) calibration $(RUN) $(PHANTOM_MR:.nrrd=.json) $(SIDE))
 	$(call made_by,$(RUN)/supine.json)
 
 # Errors against the truth, as in the summary.
 $(TABLES_OF_PAGE)/truth.tsv: $(RUN)/truth.tsv $(BIN)/tabulate
-	@mkdir -p $(@D)
 	$(call table,$(tabulate) truth $<)
 	$(call made_by,$(RUN)/supine.json)

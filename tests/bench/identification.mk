@@ -22,17 +22,15 @@ $(identification_parts:%=$(IDENTIFICATION_RUNS)/%.tsv): $(IDENTIFICATION_RUNS)/%
   $$(call identification_finer,$$*) tests/bench/identification_study.cpp
 	@mkdir -p $(RUN)
 	$(call bench,identification_study)
-	OMP_NUM_THREADS=1 $(BIN)/identification_study $(call identification_part,1,$*) $< $(call identification_part,3,$*) \
-	  $(call identification_part,4,$*) $(call identification_finer,$*) > $@.part
-	@mv $@.part $@
+	$(call table,OMP_NUM_THREADS=1 $(BIN)/identification_study $(call identification_part,1,$*) $< $(call identification_part,3,$*) \
+	  $(call identification_part,4,$*) $(call identification_finer,$*))
 # Error beside cost: one draw of each of the other laws, identified on coarser and finer meshes; the truths are on the finest.
 identification_costs := 8 10 12 16
 $(identification_costs:%=$(IDENTIFICATION_RUNS)/cost-%.tsv): $(IDENTIFICATION_RUNS)/cost-%.tsv: $(IDENTIFICATION_RUNS)/average-%/mesh.vtkhdf \
   $(IDENTIFICATION_RUNS)/average-20/mesh.vtkhdf tests/bench/identification_study.cpp
 	@mkdir -p $(RUN)
 	$(call bench,identification_study)
-	OMP_NUM_THREADS=1 $(BIN)/identification_study other $< 1 1 $(word 2,$^) > $@.part
-	@mv $@.part $@
+	$(call table,OMP_NUM_THREADS=1 $(BIN)/identification_study other $< 1 1 $(word 2,$^))
 docs/tables/identification.tsv: $(identification_parts:%=$(IDENTIFICATION_RUNS)/%.tsv) $(BIN)/tabulate
 docs/tables/identification-cost.tsv: $(identification_costs:%=$(IDENTIFICATION_RUNS)/cost-%.tsv) $(BIN)/tabulate
 docs/tables/identification.tsv docs/tables/identification-cost.tsv:
