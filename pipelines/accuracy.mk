@@ -4,16 +4,15 @@
 # tried are rows of pipelines/studies/cost.tsv, in the order of their measured cost (docs/validation/mechanics.md).
 ifneq ($(strip $(ACCURACY)),)
 accuracy_settings = $(ACCURACY) $(ACCURACY_LADDER) $(MATERIALS) $(content_MATERIALS) $(SUPPORT)
-accuracy_record = $(RUN)/.accuracy.settings
 ifneq ($(planning),)
 # A plan solves nothing: it shows the mesh chosen last, or the default if none has been chosen.
 -include $(wildcard $(RUN)/accuracy.mk)
 else
 $(RUN)/accuracy.mk: $(RUN)/labels.vtkhdf $(RUN)/geometry.vtkhdf \
   $(HEXMESH) $(BACKWARD) $(FORWARD) $(call changed,accuracy)
-	@rm -f $(accuracy_record)
+	@rm -f $(RUN)/.accuracy.settings
 	+$(BIN)/cases ladder $(RUN) $(ACCURACY) '$(strip $(ACCURACY_LADDER))' --quiet -- $(MAKE) -f $(PIPELINE) ACCURACY=
-	@echo '$(strip $(accuracy_settings))' > $(accuracy_record)
+	@echo '$(strip $(accuracy_settings))' > $(RUN)/.accuracy.settings
 include $(RUN)/accuracy.mk
 endif
 endif

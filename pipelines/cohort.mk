@@ -31,17 +31,14 @@ cohort-table: $(CASE_LIST)
 
 ifeq ($(CLUSTER),slurm)
 # The make of a task uses the programs as they are: no task builds anything.
-cohort cohort-script: | $(BIN)/identify
 task_make = make -f $(PIPELINE) -o $(ROOT)build/built-$(PRESET_BUILD).mk -o $(ROOT)build/.packages
 task_settings = $(foreach v,$(filter-out COHORT RUNS CASE CASE_FILE CLUSTER% RESUME,$(given)),'$v=$(value $v)')
 slurm = $(BIN)/cases $1 $(COHORT_RUNS) $(COHORT) --quiet --cost $(PIPELINES)/cohort-cost.tsv --elements $(ELEMENTS) \
   $(addprefix --element=,$(ELEMENT)) $(addprefix --partition=,$(CLUSTER_PARTITION)) $(addprefix --account=,$(CLUSTER_ACCOUNT)) \
   $(addprefix --time=,$(CLUSTER_TIME)) $(addprefix --memory=,$(CLUSTER_MEMORY)) --cores $(CLUSTER_CORES) \
   $(if $(CLUSTER_OPTIONS),'--options=$(CLUSTER_OPTIONS)') $(if $(RESUME),--resume) -- $(task_make) $(task_settings)
-cohort: $(CASE_LIST)
-	@$(call slurm,submit)
-cohort-script: $(CASE_LIST)
-	@$(call slurm,script)
+cohort cohort-script: $(CASE_LIST) | $(BIN)/identify
+	@$(call slurm,$(if $(filter cohort-script,$@),script,submit))
 else
 cohort: $(COHORT_CASES:%=$(COHORT_RUNS)/%.status)
 	@$(cohort_results)

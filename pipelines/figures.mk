@@ -10,18 +10,18 @@ of_run := slices $(of_points) outlines $(of_both) pressure force-thickness cc-ma
 FIGURES := $(call pictures,$(of_run)) $(if $(SUPINE),$(F)/postures.png)
 on_scan = --scan $(MR) --labels $(RUN)/labels.vtkhdf $(addprefix --series ,$(SERIES))
 # $(call draw,PICTURES,FILES,OPTIONS); no picture is named: all that the files allow, without those that could not be made
-draw = mkdir -p $(F) && $(RENDER) $(if $1,$2,$$(ls -d $2 2> /dev/null)) --all $(F) $(if $1,--only $(subst $(eval) ,$(comma),$(strip $1))) $3
+draw = mkdir -p $(F) && $(RENDER) $(if $1,$2,$$(ls -d $2 2> /dev/null)) --all $(F) $(if $1,--only $(subst $(space),$(comma),$(strip $1))) $3
 figure_files := $(addprefix $(RUN)/,geometry.vtkhdf points.vtp mesh.vtkhdf reference.vtkhdf supine.vtkhdf cc.vtkhdf mlo.vtkhdf cc.vti mlo.vti) $(CURVE)
 $(call pictures,$(of_run)) &: $(figure_files) $(RUN)/labels.vtkhdf $(RENDER)
 	@$(call draw,,$(figure_files),$(on_scan))
 	@rm -f $(call pictures,$(if $(CURVE),,$(of_curve)))
 
-files_of = $(addprefix $(RUN)/,$1)
-
 # How the breast moves: STATES equilibria while gravity turns from prone to supine, and while the plates close, each an animated
 # picture. The last equilibrium of each is that of the chain, which stays as it is.
 of_states := $(addprefix $(RUN)/states/,supine.vtkhdf cc.vtkhdf mlo.vtkhdf)
-$(foreach shape,supine cc mlo,$(eval $(shape)-states_settings = $$($(shape)_settings) --states $$(STATES)))
+supine-states_settings = $(supine_settings) --states $(STATES)
+cc-states_settings = $(cc_settings) --states $(STATES)
+mlo-states_settings = $(mlo_settings) --states $(STATES)
 $(RUN)/states/supine.vtkhdf: $(RUN)/reference.vtkhdf $(FORWARD) $(MADE_MATERIALS) $(call changed,supine-states)
 	@mkdir -p $(@D)
 	$(call stage,supine-states) $(FORWARD) $< $@ --posture supine $(model) --states $(STATES) $(common)
@@ -41,13 +41,13 @@ $(RUN)/page.html: $(call pictures,supine-states cc-states mlo-states)
 endif
 .PHONY: states
 
-fig4: $(call files_of,points.vtp geometry.vtkhdf mesh.vtkhdf labels.vtkhdf)
+fig4: $(addprefix $(RUN)/,points.vtp geometry.vtkhdf mesh.vtkhdf labels.vtkhdf)
 	@$(call draw,slices $(of_points),$(filter-out %/labels.vtkhdf,$^),$(on_scan))
-fig5: $(call files_of,mesh.vtkhdf cc.vtkhdf mlo.vtkhdf)
+fig5: $(addprefix $(RUN)/,mesh.vtkhdf cc.vtkhdf mlo.vtkhdf)
 	@$(call draw,mesh $(of_both),$^)
-fig6: $(call files_of,cc.vti mlo.vti) $(CURVE) $(call pictures,cc-points mlo-curves)
+fig6: $(addprefix $(RUN)/,cc.vti mlo.vti) $(CURVE) $(call pictures,cc-points mlo-curves)
 	@$(call draw,cc-mammogram mlo-mammogram,$(filter %.vti %.vtp,$^))
-fig7: $(call files_of,cc.vtkhdf mlo.vtkhdf) $(CURVE)
+fig7: $(addprefix $(RUN)/,cc.vtkhdf mlo.vtkhdf) $(CURVE)
 	$(if $(CURVE),,$(error fig7 shows the column of a tumour and the case has none; name its place with TUMOUR=x$(comma)y$(comma)z (mm)))
 	@$(call draw,$(of_curve),$^)
 .PHONY: fig4 fig5 fig6 fig7
@@ -56,7 +56,7 @@ fig7: $(call files_of,cc.vtkhdf mlo.vtkhdf) $(CURVE)
 curves_settings := $(CC2MLO) $(POINTS)
 $(RUN)/curves.vtp $(RUN)/curves.tsv &: $(RUN)/cc.vtkhdf $(RUN)/mlo.vtkhdf $(CC2MLO) $(call changed,curves)
 	$(call of_pressed,curves) $(CC2MLO) $(wordlist 1,2,$^) $(RUN)/curves.vtp --grid $(POINTS) --table $(RUN)/curves.tsv $(call common_of,curves)
-$(call pictures,cc-points mlo-curves) &: $(call files_of,cc.vti mlo.vti curves.vtp) $(RENDER)
+$(call pictures,cc-points mlo-curves) &: $(addprefix $(RUN)/,cc.vti mlo.vti curves.vtp) $(RENDER)
 	@[ ! -e $(RUN)/curves.vtp ] || { $(call draw,cc-points mlo-curves,$(filter-out $(RENDER),$^)); }
 
 # $(call plot,FIGURE): the picture of a table, its first prerequisite.

@@ -22,14 +22,14 @@ FILENAME ~ /[.]mk$/ && /^[A-Z0-9_]+ [?]= [^\\]*$/ {
 }
 FILENAME ~ /settings.tsv$/ && $1 != "setting" {
   usual = $7 == "-" ? plain[$1] : $7
-  settings = settings folded("  " $1 "=" $6, $8 (usual == "" ? "" : "  (" usual ")"), 104) "\n"
+  settings = settings folded("  " $1 "=" $6, $8 (usual == "" ? "" : " (default: " usual ")"), 104) "\n"
 }
 END {
   print installed ? "breast run SCAN [--side left|right] [--target TARGET] [SETTING=VALUE]...\n" \
     "breast demo [--target TARGET] [SETTING=VALUE]..." : "make -f Makefile.pipeline [TARGET] [SETTING=VALUE]..."
   print "\n" folded("targets", "", 84) " minutes on 2 cores\n" targets[0]
   if (targets[1] != "") print "targets that need the source tree\n" targets[1]
-  print "settings                  (default)\n" settings
+  print "settings\n" settings
   print folded("files of a case", "RUN/{labels,geometry,mesh,reference,supine,cc,mlo}.vtkhdf, {cc,mlo}.{vti,png}, curve.vtp, curve.tsv (of a " \
     "tumour), lookup.h5, page.html (but with PAPER=1), a .json report for each, figures/, contours.png (of the segmentation), summary.txt", 104)
   print "unknown settings, values and names with characters that a shell reads as code are refused before anything runs"

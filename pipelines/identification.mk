@@ -12,10 +12,13 @@ PHANTOM_SUPINE := $(RUNS)/phantom/$(PRESET)-supine.nrrd
 supine_scan := $(if $(filter phantom,$(SUPINE)),$(PHANTOM_SUPINE),$(SUPINE))
 ifeq ($(SUPINE),phantom)
 supine_truth := $(PHANTOM_SUPINE:.nrrd=-truth)/landmarks.tsv
-$(eval $(call phantom_scan,$(PRESET)-supine,--posture supine --misalign 4$(comma)2))
+phantom-supine_record := $(RUNS)/phantom/.$(PRESET)-supine.settings
+phantom-supine_settings := $(phantom_settings)
+$(PHANTOM_SUPINE) $(supine_truth) &: $(BIN)/phantom $(call changed,phantom-supine)
+	$(call stage,phantom-supine) $(call phantom_scan,$(PRESET)-supine,--posture supine --misalign 4$(comma)2)
 endif
-second-labels_record := $(RUN)/second/.labels.settings
-second-labels_settings := $(SEGMENT) $(content_SUPINE) $(call named,$(supine_scan)) --side $(SIDE)
+second-labels_record := $(RUN)/second/.second-labels.settings
+second-labels_settings := $(SEGMENT) $(call content,$(SUPINE)) $(call named,$(supine_scan)) --side $(SIDE)
 $(RUN)/second/labels.vtkhdf $(RUN)/second/points.vtp &: $(supine_scan) $(SEGMENT) $(call changed,second-labels)
 	$(call stage,second-labels) $(SEGMENT) $(supine_scan) $(RUN)/second/labels.vtkhdf --side $(SIDE) --posture supine --points $(RUN)/second/points.vtp \
 	  --overlay $(RUN)/second/contours.png --report $(RUN)/second/labels.json $(share)
@@ -28,7 +31,7 @@ second_states := $(RUN)/second/predicted.vtkhdf $(RUN)/second/seen.vtp
 $(RUN)/figures/postures.png: $(RUN)/second/predicted.vtkhdf $(RUN)/second/seen.vtp $(RENDER)
 	@mkdir -p $(@D) && $(RENDER) $(filter %.vtkhdf %.vtp,$^) --figure postures -o $@
 endif
-identified_settings := $(BIN)/identify $(content_LANDMARKS) $(content_MATERIALS) $(prior_set) $(SUPPORT) $(second_marks) $(second_skin) $(second_judge)
+identified_settings := $(BIN)/identify $(call content,$(landmark_files)) $(content_MATERIALS) $(prior_set) $(SUPPORT) $(second_marks) $(second_skin) $(second_judge)
 $(RUN)/identified.tsv $(RUN)/landmarks.tsv $(second_states) &: $(RUN)/mesh.vtkhdf $(landmark_files) $(second_scan) $(supine_truth) $(BIN)/identify \
   $(call changed,identified)
 	$(call prints,identified,$(RUN)/identified.txt) $(BIN)/identify $< $(RUN)/identified.tsv $(second_marks) --align $(second_skin) $(second_judge) --materials $(prior_set) $(SUPPORT) \

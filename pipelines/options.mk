@@ -14,7 +14,6 @@ $(call said,$(shell $(BIN)/cases check $(PIPELINES) $(if $(planning),0,$$PPID) $
 content = $(foreach f,$(wildcard $(filter-out $(RUNS)/%,$1)),$(shell [ ! -f $f ] || sha256sum < $f | cut -c 1-12))
 content_MATERIALS := $(call content,$(call set_of,$(MATERIALS)))
 content_TUMOUR := $(call content,$(TUMOUR))
-$(foreach s,FAT ALSO CHEST_WALL LANDMARKS MAMMOGRAMS SUPINE,$(eval content_$s := $$(call content,$$(subst $$(comma), ,$$($s)))))
 
 # With landmarks in a second posture, or a supine scan of the same patient, the set MATERIALS is the prior, and the chain runs with the
 # set that `identify` finds.
@@ -43,6 +42,9 @@ MR_FILES := $(MR) $(if $(wildcard $(MR)/.),$(wildcard $(MR)/*))
 MADE_TUMOUR := $(filter $(RUNS)/%,$(TUMOUR))
 MADE_MATERIALS := $(filter $(RUN)/%,$(MATERIALS))
 MATERIAL_TABLE := $(call set_of,$(MATERIALS))
+# Without a tumour, the chain ends with the curves of all CC points and their page instead of one curve.
+landmarks := $(if $(no_tumour),,tumour$(comma))nipple
+CURVE := $(if $(no_tumour),,$(RUN)/curve.vtp)
 # What only the run of a tumour has: another mesh may have none.
 of_a_tumour := $(addprefix $(RUN)/,curve.vtp curve.tsv curve.json .curve.settings band.vtp band.tsv band-curve.tsv band.json \
   figures/*-matching.png slicer/scene.mrml slicer/column-* slicer/curve-*)
@@ -63,7 +65,7 @@ slopes_of := fat,fibroglandular,skin
 model = $(MECHANICS) $(SUPPORT)
 labels_options = --side $(SIDE) $(addprefix --series ,$(SERIES)) $(addprefix --fat ,$(FAT)) $(addprefix --also ,$(ALSO)) \
   $(addprefix --chest-wall ,$(CHEST_WALL)) $(SEGMENT_OPTIONS)
-labels_settings = $(SEGMENT) $(call named,$(MR)) $(labels_options) $(content_FAT) $(content_ALSO) $(content_CHEST_WALL)
+labels_settings = $(SEGMENT) $(call named,$(MR)) $(labels_options) $(call content,$(FAT) $(ALSO) $(CHEST_WALL))
 geometry_settings = $(FIT_HERMITE) $(FIT_OPTIONS)
 mesh_options = $(HEXMESH_OPTIONS) $(if $(findstring --tumour,$(HEXMESH_OPTIONS)),,--tumour $(TUMOUR))
 mesh_settings = $(HEXMESH) $(mesh_options) $(content_TUMOUR)

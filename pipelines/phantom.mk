@@ -3,19 +3,14 @@
 # that the chain never uses.
 # The preset `paper` was fitted to results of this chain; tabulate marks the rows to which it was fitted.
 export CALIBRATED := $(if $(TRUTH),$(if $(filter paper,$(PRESET)),$(PHANTOM_MR:.nrrd=.json) $(SIDE)))
-# Without a tumour, the chain ends with the curves of all CC points and their page instead of one curve.
-landmarks := $(if $(no_tumour),,tumour$(comma))nipple
-CURVE := $(if $(no_tumour),,$(RUN)/curve.vtp)
 
-# $(call phantom_scan,NAME,OPTIONS,FILES): the scan RUNS/phantom/NAME.nrrd, its truth NAME-truth, and more files made with it.
+# $(call phantom_scan,NAME,OPTIONS): the program that makes the scan RUNS/phantom/NAME.nrrd and its truth NAME-truth.
+phantom_scan = $(BIN)/phantom $(RUNS)/phantom/$1.nrrd --preset $(PRESET) $2 --truth $(RUNS)/phantom/$1-truth $(PHANTOM_OPTIONS) \
+  --report $(RUNS)/phantom/$1.json $(alone)
+phantom_record := $(RUNS)/phantom/.$(PRESET).settings
 phantom_settings := $(BIN)/phantom $(PRESET) $(PHANTOM_OPTIONS)
-define phantom_scan
-$(RUNS)/phantom/$1.nrrd $(RUNS)/phantom/$1-truth/landmarks.tsv $3 &: $(BIN)/phantom \
-  $(call stale,$(RUNS)/phantom/.$1.settings,$(phantom_settings))
-	$$(call staged,$(RUNS)/phantom/.$1.settings,$(phantom_settings)) $(BIN)/phantom $(RUNS)/phantom/$1.nrrd --preset $(PRESET) $2 --truth $(RUNS)/phantom/$1-truth $(PHANTOM_OPTIONS) \
-	  --report $(RUNS)/phantom/$1.json $$(alone)
-endef
-$(eval $(call phantom_scan,$(PRESET),,$(PHANTOM_TRUTH)/tumour-$(SIDE).tsv))
+$(PHANTOM_MR) $(PHANTOM_TRUTH)/landmarks.tsv $(PHANTOM_TRUTH)/tumour-$(SIDE).tsv &: $(BIN)/phantom $(call changed,phantom)
+	$(call stage,phantom) $(call phantom_scan,$(PRESET))
 
 # Makes only the scan, which all cases of one phantom share (cohort.mk).
 .PHONY: phantom-scan

@@ -2,13 +2,12 @@
 # What is made of the chain of Makefile.pipeline: displacements, errors against the phantom's truth, the summary; the page of both views,
 # the run for 3D Slicer, expected values, and one self-contained report.
 CHAIN_FILES := $(addprefix $(RUN)/,labels.vtkhdf geometry.vtkhdf mesh.vtkhdf reference.vtkhdf \
-  supine.vtkhdf cc.vtkhdf mlo.vtkhdf cc.vti mlo.vti $(if $(no_tumour),,curve.vtp) $(if $(PAPER),$(if $(no_tumour),lookup.h5 page.html),lookup.h5 page.html))
+  supine.vtkhdf cc.vtkhdf mlo.vtkhdf cc.vti mlo.vti) $(CURVE) $(addprefix $(RUN)/,$(if $(and $(PAPER),$(CURVE)),,lookup.h5 page.html))
 
 # Material sets: of the model without gland, in which the law of fat replaces that of fibroglandular tissue, and of a row of Table VIII.
 $(RUN)/fat-only.tsv: $(whole_set)
 $(RUN)/columns.tsv: $(PIPELINES)/materials/seed2008.tsv
 $(RUN)/fat-only.tsv $(RUN)/columns.tsv:
-	@mkdir -p $(@D)
 	$(call table,$(tabulate) set $(basename $(@F)) $<)
 
 # The same with the lateral cut held, which shows the effect of this boundary condition at the landmarks;
@@ -21,7 +20,7 @@ $(RUN)/supine-cut-fixed.vtkhdf: $(RUN)/reference-cut-fixed.vtkhdf $(FORWARD)
 	$(call stage,supine-cut-fixed) $(FORWARD) $< $@ --posture supine $(MECHANICS) --cut fixed --estimate none $(common)
 
 # Tables come from stdout; a rename makes them complete or absent: $(call table,COMMAND).
-table = $1 > $@.part && mv $@.part $@
+table = mkdir -p $(@D) && $1 > $@.part && mv $@.part $@
 SHOWN := $(addprefix $(RUN)/,mesh.vtkhdf reference.vtkhdf supine.vtkhdf)
 displacements_settings := $(BIN)/probe $(landmarks)
 $(RUN)/displacements.tsv: $(SHOWN) $(addprefix $(RUN)/,cc.vtkhdf mlo.vtkhdf) $(BIN)/probe $(call changed,displacements)
@@ -65,7 +64,7 @@ $(RUN)/lookup.h5: $(both_views) $(derivatives) $(BIN)/match-lookup $(call change
 ifneq ($(MAMMOGRAMS),)
 mammograms := $(subst $(comma), ,$(MAMMOGRAMS))
 of_patient := $(addprefix $(RUN)/patient,.json -cc.png -mlo.png)
-patient_settings := $(CC2MLO) $(call named,$(firstword $(mammograms))) $(call named,$(lastword $(mammograms))) $(content_MAMMOGRAMS)
+patient_settings := $(CC2MLO) $(call named,$(firstword $(mammograms))) $(call named,$(lastword $(mammograms))) $(call content,$(mammograms))
 $(of_patient) &: $(both_views) $(mammograms) $(CC2MLO) $(call changed,patient)
 	$(call of_both_views,patient) $(CC2MLO) $(both_views) $(RUN)/patient.vtp --grid 1 --table $(RUN)/patient.tsv --cc-image $(firstword $(mammograms)) \
 	  --mlo-image $(lastword $(mammograms)) --cc-hung $(RUN)/patient-cc.png --mlo-hung $(RUN)/patient-mlo.png --report $(RUN)/patient.json $(share)

@@ -2,6 +2,8 @@
 # What users give, on the command line, in the environment or in a case file, is data. `cases given` refuses in one line a name that is
 # no setting, and every value that make or a shell would read as code, before make expands any of them.
 comma := ,
+empty :=
+space := $(empty) $(empty)
 define newline
 
 

@@ -37,14 +37,12 @@ study: $(addprefix $(call study_dir,),$(addsuffix .tsv,$(study_name)))
 # question, the least model that stays within LEAVEOUT_MM, solved and measured.
 LEAVEOUT := $(RUN)/leaveout
 LEAVEOUT_PARTS := $(filter no-%,$(leaveout_variants))
-LEAVEOUT_QUESTIONS := surgery matching
 leaveout: $(LEAVEOUT)/table.tsv $(LEAVEOUT)/recommendation.tsv
 	@cat $^
 $(LEAVEOUT)/table.tsv: $(call results,leaveout,$(LEAVEOUT_VARIANTS),supine curve) $(RUN)/curve.vtp $(RUN)/supine.vtkhdf $(BIN)/tabulate
-	@mkdir -p $(@D)
 	$(call table,$(tabulate) leaveout $(RUN) $(LEAVEOUT_VARIANTS))
 # The parts a question can do without are known when the table is: this makefile once more, from the case's labels and geometry.
-least := $(LEAVEOUT_QUESTIONS:%=$(call study_dir,leaveout)/least-%/curve.tsv)
+least := $(foreach question,surgery matching,$(call study_dir,leaveout)/least-$(question)/curve.tsv)
 least_record = $(LEAVEOUT)/.least-$1.settings
 $(least): $(call study_dir,leaveout)/least-%/curve.tsv: $(LEAVEOUT)/table.tsv $(BIN)/tabulate $$(call stale,$$(call least_record,$$*),$(LEAVEOUT_MM))
 	@rm -f $(call least_record,$*)
@@ -58,17 +56,14 @@ $(LEAVEOUT)/recommendation.tsv: $(least) $(BIN)/tabulate
 
 # ---- what the chest wall's own uncertainty does ------------------------------------------------------------
 # The whole chain with the wall of studies/wall.tsv, and how far the predictions move.
-WALL_SHIFTS := $(RUN)/wall
-WALL_VARIANTS := $(wall_variants)
-wall-sensitivity: $(WALL_SHIFTS)/table.tsv
-$(WALL_SHIFTS)/table.tsv: $(call results,wall,$(WALL_VARIANTS),supine curve) $(RUN)/supine.vtkhdf $(RUN)/curve.vtp \
+wall-sensitivity: $(RUN)/wall/table.tsv
+	@cat $<
+$(RUN)/wall/table.tsv: $(call results,wall,$(wall_variants),supine curve) $(RUN)/supine.vtkhdf $(RUN)/curve.vtp \
   $(BIN)/tabulate
-	@mkdir -p $(@D)
-	$(call table,$(tabulate) wall $(RUN) $(WALL_VARIANTS))
-	@cat $@
+	$(call table,$(tabulate) wall $(RUN) $(wall_variants))
 # Derivatives by stiffness, plates and chest wall in one file a view, and the band they give the tumour's curve.
-$(RUN)/cc-band.vtkhdf $(RUN)/mlo-band.vtkhdf: $(RUN)/%-band.vtkhdf: $(RUN)/%-sensitivity.vtkhdf $(call results,wall,$(WALL_VARIANTS),curve) $(BIN)/difference
-	$(BIN)/difference $< $(foreach v,$(WALL_VARIANTS),$(call study_dir,wall/$v)/$*.vtkhdf) $@ --parameter chest_wall $(common)
+$(RUN)/cc-band.vtkhdf $(RUN)/mlo-band.vtkhdf: $(RUN)/%-band.vtkhdf: $(RUN)/%-sensitivity.vtkhdf $(call results,wall,$(wall_variants),curve) $(BIN)/difference
+	$(BIN)/difference $< $(foreach v,$(wall_variants),$(call study_dir,wall/$v)/$*.vtkhdf) $@ --parameter chest_wall $(common)
 $(RUN)/band.tsv: $(RUN)/cc-band.vtkhdf $(RUN)/mlo-band.vtkhdf $(CC2MLO)
 	$(CC2MLO) $(wordlist 1,2,$^) $(RUN)/band.vtp --landmark tumour --band --table $@ --curve-table $(RUN)/band-curve.tsv \
 	  $(common)
@@ -81,7 +76,6 @@ COST := $(RUN)/cost
 cost: $(COST)/cost.tsv $(COST)/cost.png
 	@cat $<
 $(COST)/cost.tsv: $(call results,cost,$(sort $(COST_POINTS) $(COST_FINEST)),supine) $(BIN)/tabulate
-	@mkdir -p $(@D)
 	$(call table,$(tabulate) cost $(call study_dir,cost) $(COST_FINEST) $(COST_POINTS))
 $(COST)/cost.png: $(COST)/cost.tsv $(RENDER)
 	$(call plot,cost)

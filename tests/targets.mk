@@ -77,7 +77,6 @@ stability-contact: $(STABILITY)/contact.tsv
 stability: $(STABILITY)/summary.tsv
 	@cat $<
 $(STABILITY)/mechanics.tsv: $(SOURCES) $(wildcard tests/extreme/table/*)
-	@mkdir -p $(@D)
 	$(call build,print_extreme_mechanics)
 	$(call table,$(BUILD)/tests/print_extreme_mechanics --limit $(STABILITY_LIMIT))
 $(STABILITY)/contact.tsv: $(COMPRESS) tests/fixtures/contact_cases.hpp tests/bench/stability_contact.cpp \

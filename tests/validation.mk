@@ -5,26 +5,26 @@
 TABLES_OF_PAGE := docs/tables
 PAGES_WITH_TABLES := docs/architecture.md docs/validation.md $(wildcard docs/validation/*.md)
 
+# $(call published,NAME,TABLE,REPORT): copies a table to docs/tables/NAME.tsv, with the run that its report names, and into its page.
+define published
+	cp $2 $(TABLES_OF_PAGE)/$1.tsv
+	$(tabulate) made $(TABLES_OF_PAGE)/$1.tsv $3
+	$(tabulate) pages fill $(PAGES_WITH_TABLES)
+endef
 validation: $(addprefix $(TABLES_OF_PAGE)/,compression-convergence.tsv calibration.tsv truth.tsv)
 	$(tabulate) pages fill $(PAGES_WITH_TABLES)
 validation-page:
 	$(tabulate) pages fill $(PAGES_WITH_TABLES)
 # Of docs/validation/slicer.md, from the default case.
 slicer-table: slicer
-	cp $(RUN)/slicer-fields.tsv $(TABLES_OF_PAGE)/slicer-fields.tsv
-	$(tabulate) made $(TABLES_OF_PAGE)/slicer-fields.tsv $(RUN)/slicer.json
-	$(tabulate) pages fill $(PAGES_WITH_TABLES)
+	$(call published,slicer-fields,$(RUN)/slicer-fields.tsv,$(RUN)/slicer.json)
 # Of docs/validation/sliding.md: the judging half of the cohort beside living women.
 population-table: population
-	cp $(POPULATION_RUNS)/judging.tsv $(TABLES_OF_PAGE)/sliding.tsv
-	$(tabulate) made $(TABLES_OF_PAGE)/sliding.tsv $(POPULATION_RUNS)/judging.json
-	$(tabulate) pages fill $(PAGES_WITH_TABLES)
+	$(call published,sliding,$(POPULATION_RUNS)/judging.tsv,$(POPULATION_RUNS)/judging.json)
 .PHONY: population-table
 # Of docs/validation/geometry.md: sides of real women (COHORT=DIR).
 sides-table: sides
-	cp $(COHORT_RUNS)/sides.tsv $(TABLES_OF_PAGE)/sides.tsv
-	$(tabulate) made $(TABLES_OF_PAGE)/sides.tsv $(COHORT_RUNS)/sides.tsv
-	$(tabulate) pages fill $(PAGES_WITH_TABLES)
+	$(call published,sides,$(COHORT_RUNS)/sides.tsv,$(COHORT_RUNS)/sides.tsv)
 .PHONY: sides-table
 
 # Of docs/validation/sliding.md: the cohort between plates, and how the compressed shape depends on the mesh, on friction and on the
@@ -85,18 +85,15 @@ gallery: chain
 
 # How the compressed shapes converge with the mesh (studies/convergence.tsv).
 $(TABLES_OF_PAGE)/compression-convergence.tsv: $(call results,convergence,$(convergence_variants),cc mlo) $(BIN)/tabulate
-	@mkdir -p $(@D)
 	$(call table,$(tabulate) convergence $(call study_dir,convergence) $(convergence_variants))
 	$(call made_by,$<)
 
 # The displacements to which the preset was fitted and those of its truth, with those of the chain as solved and as printed.
 $(TABLES_OF_PAGE)/calibration.tsv: $(RUN)/displacements.tsv $(base_printed) $(PHANTOM_MR) $(BIN)/tabulate
-	@mkdir -p $(@D)
 	$(call table,$(tabulate) calibration $(RUN) $(PHANTOM_MR:.nrrd=.json) $(SIDE))
 	$(call made_by,$(RUN)/supine.json)
 
 # Errors against the truth, as in the summary.
 $(TABLES_OF_PAGE)/truth.tsv: $(RUN)/truth.tsv $(BIN)/tabulate
-	@mkdir -p $(@D)
 	$(call table,$(tabulate) truth $<)
 	$(call made_by,$(RUN)/supine.json)

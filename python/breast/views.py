@@ -11,9 +11,11 @@ from .state import State
 
 _AIR_MARGIN = 4  # mm of air shown around the breast
 
+
 def lateral_sign(side: str) -> int:
     """1 for the left breast, whose outer side is at greater x; -1 for the right."""
     return 1 if side == "left" else -1
+
 
 @dataclass(frozen=True)
 class ViewPose:
@@ -27,6 +29,7 @@ class ViewPose:
     e_v: np.ndarray
     origin: np.ndarray
 
+
 @dataclass(frozen=True)
 class ImageFrame:
     """Pose and extent in mm of the image, for parallel rays."""
@@ -34,6 +37,7 @@ class ImageFrame:
     pose: ViewPose
     width: float
     height: float
+
 
 def view_axes(side: str, angle_deg: float, turn_deg: float, lean_deg: float,
               bend_deg: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -48,6 +52,7 @@ def view_axes(side: str, angle_deg: float, turn_deg: float, lean_deg: float,
     e_u = np.cos(lean) * axis + np.sin(lean) * upwards
     e_v = np.cross(n, e_u)
     return np.cos(bend) * n + np.sin(bend) * e_u, np.cos(bend) * e_u - np.sin(bend) * n, e_v
+
 
 def image_frame(state: State) -> ImageFrame:
     """Where the image of a compressed breast lies, as project-mammogram frames it. Raises BreastError without plates."""

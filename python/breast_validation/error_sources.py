@@ -86,7 +86,8 @@ def methods_cost(folder: Path) -> Table:
     """
     made = Table(["method", "elements", "cpu_s", "error_mm", "measured"])
     for row in read_table(folder / "cost.tsv"):
-        method = f"supine, {row['element'].upper()[:2]}/{row['element'].upper()[2:]} {row['template']}{', direct solver' * (row['solver'] == 'direct')}"
+        element, solver = row["element"].upper(), ", direct solver" if row["solver"] == "direct" else ""
+        method = f"supine, {element[:2]}/{element[2:]} {row['template']}{solver}"
         made.rows.append([method, row["elements"], row["cpu_s"], row["supine_error_mm"], FINER])
     for row in read_table(folder / "compression-mesh.tsv"):
         made.rows.append([f"between plates, {row['view']}", row["elements"], row["cpu_seconds"], row["tumour_mm"], FINER])

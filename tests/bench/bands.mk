@@ -25,8 +25,7 @@ $(RUN)/band-check-mesh.vtkhdf: $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $(HEX
 	$(HEXMESH) $(RUN)/geometry.vtkhdf $(RUN)/labels.vtkhdf $@ --elements 8 --tumour none $(common)
 $(RUN)/band-samples.tsv: $(RUN)/band-check-mesh.vtkhdf tests/bench/band_check.cpp $(COMPRESS)
 	$(call bench,band_check)
-	$(BIN)/band_check $< 1 $(BAND_SAMPLES) > $@.part
-	@mv $@.part $@
+	$(call table,$(BIN)/band_check $< 1 $(BAND_SAMPLES))
 band-check: $(RUN)/band-samples.tsv
 	@$(tabulate) coverage $<
 .PHONY: band-check

@@ -25,8 +25,7 @@ endif
 $(COMPARE)/all.tsv: $(COMPARE_FILES)
 $(COMPARE)/pressed.tsv: $(PRESSED_FILES)
 $(COMPARE)/all.tsv $(COMPARE)/pressed.tsv:
-	@awk 'NR == 1 || FNR > 1' $^ > $@.part
-	@mv $@.part $@
+	@$(call table,awk 'NR == 1 || FNR > 1' $^)
 
 $(COMPARE)/block-%.tsv: $(compare_needs) $(PIPELINES)/compare/mooney-rivlin.tsv
 	@mkdir -p $(COMPARE)

@@ -99,9 +99,10 @@ def row(change: str, options: list[str], materials: Path, runs: list[Path], fitt
         fitted.update({side: motion["nipple_moved_mm"] for side, motion in motions.items()})
     light = {side: motion for side, motion in motions.items() if not side.startswith(HEAVY)}
     heavy = {side: motion for side, motion in motions.items() if side.startswith(HEAVY)}
+    changes_of_nipple = [abs(motions[side]["nipple_moved_mm"] - fitted[side]) for side in motions.keys() & fitted.keys()]
     return {"change": change, "solved": f"{len(motions)}/{len(runs)}", **{name: f"{mean_over_women(light, name):.1f}" for name in MEANS},
             "heavy_nipple_moved_mm": f"{mean_over_women(heavy, 'nipple_moved_mm'):.1f}",
-            "largest_change_of_nipple_mm": f"{max(abs(motions[side]['nipple_moved_mm'] - fitted[side]) for side in motions.keys() & fitted.keys()):.1f}",
+            "largest_change_of_nipple_mm": f"{max(changes_of_nipple):.1f}",
             "least_scaled_jacobian": f"{min(report['min_scaled_jacobian'] for report in reports):.2f}",
             "most_newton_iterations": max(report["most_iterations"] for report in reports)}
 

@@ -12,9 +12,7 @@ same-scan:
 	@$(tabulate) same-scan $(RUNS)/cohort-changed
 	@$(tabulate) flags $(RUNS)/cohort-changed
 same-scan-table: same-scan
-	cp $(RUNS)/cohort-changed/same-scan.tsv $(TABLES_OF_PAGE)/same-scan.tsv
-	$(tabulate) made $(TABLES_OF_PAGE)/same-scan.tsv $(RUNS)/cohort-changed/same-scan.tsv
-	$(tabulate) pages fill $(PAGES_WITH_TABLES)
+	$(call published,same-scan,$(RUNS)/cohort-changed/same-scan.tsv,$(RUNS)/cohort-changed/same-scan.tsv)
 # What segment costs, of one scan (MR, SIDE) in 1 to 250 million voxels.
 segment-cost-table:
 	cmake -B $(BUILD) -DBREAST_BENCH=ON > /dev/null

@@ -17,7 +17,20 @@ row says how many inputs there were; BREAST_FIRST_INPUT=n continues it, with the
 BIN/released-objects.txt, where there is one, states which objects of these programs are without sanitizers. No more than the
 standard library is needed.
 """
-import base64, glob, gzip, hashlib, os, random, re, shutil, signal, struct, subprocess, sys, time, zlib
+import base64
+import glob
+import gzip
+import hashlib
+import os
+import random
+import re
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import time
+import zlib
 
 BIN, INPUTS = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
 COUNT = int(sys.argv[3]) if len(sys.argv) > 3 else 2000

@@ -252,9 +252,16 @@ def check_accessibility(page: Page) -> None:
       const rgb = text => text.match(/[\\d.]+/g).map(Number), clear = c => c.length > 3 && c[3] === 0;
       const light = c => c.slice(0, 3).map(v => (v /= 255) <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
           .reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0);
-      const ground = e => { for (; e; e = e.parentElement) { const c = rgb(getComputedStyle(e).backgroundColor); if (!clear(c)) return c; } return [255, 255, 255]; };
-      return [...document.querySelectorAll('h1, h2, p, li, td, th, small, caption, summary, figcaption, label, button:not(:disabled)')].filter(e => e.textContent.trim())
-          .filter(e => { const [a, b] = [light(rgb(getComputedStyle(e).color)), light(ground(e))].sort((x, y) => y - x); return (a + 0.05) / (b + 0.05) < 4.5; })
+      const ground = e => {
+        for (; e; e = e.parentElement) { const c = rgb(getComputedStyle(e).backgroundColor); if (!clear(c)) return c; }
+        return [255, 255, 255];
+      };
+      const faint = e => {
+        const [a, b] = [light(rgb(getComputedStyle(e).color)), light(ground(e))].sort((x, y) => y - x);
+        return (a + 0.05) / (b + 0.05) < 4.5;
+      };
+      return [...document.querySelectorAll('h1, h2, p, li, td, th, small, caption, summary, figcaption, label, button:not(:disabled)')]
+          .filter(e => e.textContent.trim() && faint(e))
           .map(e => e.tagName + ' ' + e.textContent.trim().slice(0, 30));
     })()""")
     check(pale == [], f"text stands out from its ground by 4.5 to 1: {pale}")

@@ -6,6 +6,7 @@ import pathlib
 import shutil
 import subprocess
 import tempfile
+from collections.abc import Iterable
 
 programs: pathlib.Path = pathlib.Path("build/release/bin")  # run_tests.py says which
 source = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -105,6 +106,39 @@ def scratch(name: str) -> pathlib.Path:
     shutil.rmtree(made, ignore_errors=True)
     made.mkdir(parents=True)
     return made
+
+
+def link_to(folder: pathlib.Path, files: Iterable[pathlib.Path]) -> None:
+    """A link in the folder to each of the files."""
+    for file in files:
+        (folder / file.name).symlink_to(file)
+
+
+def planning_folder(name: str) -> pathlib.Path:
+    """A folder like a clone of the project whose programs are built, with scans, case files and studies beside it: make plans there."""
+    clone, scan = scratch(name), source / "testdata/small-scan.nrrd"
+    linked = ("Makefile.pipeline", "CMakeLists.txt", "CMakePresets.json", "libbreast", "tools", "python", "cmake", "docs", "tests")
+    link_to(clone, (source / one for one in linked))
+    (clone / "pipelines").mkdir()  # without installed.mk, which names the programs of another build
+    link_to(clone / "pipelines", (file for file in (source / "pipelines").iterdir() if file.name != "installed.mk"))
+    (clone / "build/release").mkdir(parents=True)
+    (clone / "build/release/bin").symlink_to(programs)
+    for one in ("scan.nrrd", "t1tse.nrrd", "phantomA_mr_t1.nrrd", "corrected.seg.nrrd", "fat.nrrd", "t1.nrrd"):
+        (clone / one).symlink_to(scan)
+    (clone / "patients").mkdir()
+    (clone / "patients/anna.case").write_text("MR = scan.nrrd\nSIDE = left\n", encoding="utf-8")
+    for one in ("mine.tsv", "softer.tsv"):
+        (clone / one).write_text("variant\tstarts_at\tmechanics\nsofter\treference\t+--scale fat=50\n", encoding="utf-8")
+    return clone
+
+
+def run_in(place: pathlib.Path, words: list[str]) -> subprocess.CompletedProcess[str]:
+    """Runs a command; `breast` takes the programs of this build, and builds none."""
+    environment = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL", "INSTALLED")}
+    environment["PATH"] = f"{programs}:{environment['PATH']}"
+    if words[0] == "breast":
+        environment["INSTALLED"] = str(programs)
+    return subprocess.run(words, cwd=place, env=environment, capture_output=True, text=True)
 
 
 def remove() -> None:

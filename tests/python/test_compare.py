@@ -52,7 +52,8 @@ class OnReports(unittest.TestCase):
         def view(force, friction):
             return {"side": "left", "command": f"compress r.vtkhdf cc.vtkhdf --view CC{friction}", "status": "converged",
                     "force_N": force, "thickness_mm": 50,
-                    "coverage": {"projected_cm2": force - 2.4, "contact_percent_of_projected": 108.2}, "landmarks": {"tumour": {"position": [1, 2, 3 + force], "error_estimate_mm": 0.25}}}
+                    "coverage": {"projected_cm2": force - 2.4, "contact_percent_of_projected": 108.2},
+                    "landmarks": {"tumour": {"position": [1, 2, 3 + force], "error_estimate_mm": 0.25}}}
         pair = Pair(self.run_of("a", cc=view(80, "")), self.run_of("b", cc=view(90, " --friction 0.3")))
         rows = {row.quantity: row for row in pair.rows}
         self.assertEqual((rows["CC: force of the paddle"].first, rows["CC: force of the paddle"].difference), ("80.0", "+10.0"))

@@ -1,12 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every command that a page shows is run on the demonstration, or planned, or listed here with the reason why it is not."""
-import os
 import re
 import shlex
 import shutil
-import subprocess
 import unittest
-from collections.abc import Iterable
 from functools import lru_cache
 from pathlib import Path
 
@@ -97,42 +94,16 @@ def exception_of(words: str) -> str:
     return next((start for start in NOT_RUN if words.startswith(start)), "")
 
 
-def _link(folder: Path, files: Iterable[Path]) -> None:
-    for file in files:
-        (folder / file.name).symlink_to(file)
-
-
 class DocumentedCommands(unittest.TestCase):
     """In a folder like a clone of the project, with a scan and case files beside it."""
 
     @classmethod
     def setUpClass(cls) -> None:
-        cls.clone = small_run.scratch("documented")
-        source, scan = small_run.source, small_run.source / "testdata/small-scan.nrrd"
-        _link(cls.clone, (source / name for name in ("Makefile.pipeline", "CMakeLists.txt", "CMakePresets.json", "libbreast", "tools",
-                                                     "python", "cmake", "docs", "tests")))
-        (cls.clone / "pipelines").mkdir()  # without installed.mk, which names the programs of another build
-        _link(cls.clone / "pipelines", (file for file in (source / "pipelines").iterdir() if file.name != "installed.mk"))
-        (cls.clone / "build/release").mkdir(parents=True)
-        (cls.clone / "build/release/bin").symlink_to(small_run.programs)
-        for name in ("scan.nrrd", "t1tse.nrrd", "phantomA_mr_t1.nrrd", "corrected.seg.nrrd", "fat.nrrd", "t1.nrrd"):
-            (cls.clone / name).symlink_to(scan)
-        (cls.clone / "patients").mkdir()
-        (cls.clone / "patients/anna.case").write_text("MR = scan.nrrd\nSIDE = left\n", encoding="utf-8")
-        for name in ("mine.tsv", "softer.tsv"):
-            (cls.clone / name).write_text("variant\tstarts_at\tmechanics\nsofter\treference\t+--scale fat=50\n", encoding="utf-8")
-
-    def run_in(self, folder: Path, words: list[str]) -> subprocess.CompletedProcess[str]:
-        """Runs a command; `breast` takes the programs of this build, and builds none."""
-        environment = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL", "INSTALLED")}
-        environment["PATH"] = f"{small_run.programs}:{environment['PATH']}"
-        if words[0] == "breast":
-            environment["INSTALLED"] = str(small_run.programs)
-        return subprocess.run(words, cwd=folder, env=environment, capture_output=True, text=True)
+        cls.clone = small_run.planning_folder("documented")
 
     def check(self, folder: Path, words: str, *more: str) -> None:
         with self.subTest(words, place=all_commands()[words]):
-            done = self.run_in(folder, [*shlex.split(words), *more])
+            done = small_run.run_in(folder, [*shlex.split(words), *more])
             self.assertEqual(done.returncode, 0, f"{done.stdout[-300:]}{done.stderr[-800:]}")
 
     def of(self, *starts: str) -> list[str]:
@@ -157,7 +128,7 @@ class DocumentedCommands(unittest.TestCase):
             alike.setdefault((str(bool(OF_PAPER.intersection(targets))), str("check" in targets), *settings), []).append(words)
         for commands in alike.values():
             together = dict.fromkeys(word for words in commands for word in shlex.split(words)[1:] if not word.startswith("-j"))
-            if self.run_in(self.clone, ["make", "-n", "MAKE=true", *together]).returncode != 0:
+            if small_run.run_in(self.clone, ["make", "-n", "MAKE=true", *together]).returncode != 0:
                 for words in commands:
                     self.check(self.clone, words, "-n", "MAKE=true")
 
@@ -172,7 +143,7 @@ class DocumentedCommands(unittest.TestCase):
         dicom = small_run.scratch("documented-dicom")
         for view in ("cc", "mlo"):
             small_run.tool(f"project-mammogram {small_run.demo()}/{view}.vtkhdf {dicom}/{view}.vti --dicom {dicom}/{view}.dcm", dicom)
-        _link(small_run.scratch("phantom"), (small_run.demo().parent / "phantom").glob("*.nrrd"))
+        small_run.link_to(small_run.scratch("phantom"), (small_run.demo().parent / "phantom").glob("*.nrrd"))
         done: set[str] = set()
         pages: dict[str, list[str]] = {}
         for words in self.of("breast", *TOOLS):
@@ -185,7 +156,7 @@ class DocumentedCommands(unittest.TestCase):
             for file in small_run.demo().iterdir():
                 if file.is_file():
                     shutil.copy(file, folder)
-            _link(folder, [*dicom.glob("*.dcm"), self.clone / "scan.nrrd"])
+            small_run.link_to(folder, [*dicom.glob("*.dcm"), self.clone / "scan.nrrd"])
             for words in commands:
                 self.check(folder, words)
 

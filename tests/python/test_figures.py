@@ -29,6 +29,7 @@ try:
 except ImportError as error:
     raise unittest.SkipTest(f"figures need python3-matplotlib and python3-vtk9 ({error})") from None
 
+
 def length(lines):
     return sum(np.linalg.norm(np.diff(line, axis=0), axis=1).sum() for line in lines)
 

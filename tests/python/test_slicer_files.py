@@ -82,7 +82,6 @@ class Segmentations(unittest.TestCase):
             with self.assertRaisesRegex(breast.BreastError, "it has: Brustwand ä, Segment_2"):
                 seg.mask("wall")
 
-
     def test_of_several_segments_each_states_its_value(self) -> None:
         with self.assertRaisesRegex(breast.BreastError, "Segment1_LabelValue is missing"):
             nrrd("s.seg.nrrd", np.ones((4, 3, 2), np.uint8), "Segment0_ID:=a\nSegment0_LabelValue:=1\nSegment1_ID:=b\n")

@@ -259,7 +259,8 @@ class WhatIsSaid(unittest.TestCase):
         line = MatchedLine(points, np.full(3, 5 / SIDES_90), np.zeros(3), "matched", 41)
         np.testing.assert_allclose(line.inside_band(points[1] + np.array([[3, 4], [0, 6], [0, 0]])), [0, -1, 5], atol=1e-9)
         np.testing.assert_allclose(line.inside_band(0.5 * (points[0] + points[1]) + [[0, 4], [0, 5.5]]), [1, -0.5], atol=0.02)
-        for end, said in ((points[2], "The hook in the line is probably tissue near the skin, which a plate has dragged along."), (points[1] + 15, "")):
+        hook = "The hook in the line is probably tissue near the skin, which a plate has dragged along."
+        for end, said in ((points[2], hook), (points[1] + 15, "")):
             way = np.vstack([np.linspace(points[0], points[1], 21), np.linspace(points[1], end, 22)[1:]])
             self.assertEqual(MatchedLine(way, np.zeros(42), np.zeros(42), "matched", 41).remark(), said)
         for ring in drawing._band(line, image):

@@ -45,7 +45,7 @@ for name in $(awk -F '\t' '/^#/ || $1 ~ /^(goal|setting)$/ || $NF == "-" { next 
   case $name in *=) end= ;; *) end='( |$)' ;; esac
   grep -qE "^  $name$end" "$work/out" || fail "help lists $name"
 done
-grep -q '^  ELEMENTS=.*(16)' "$work/out" && grep -q '^  SEGMENT=.*(segment)' "$work/out" || fail "help has plain defaults"
+grep -q '^  ELEMENTS=.*(default: 16)' "$work/out" && grep -q '^  SEGMENT=.*(default: segment)' "$work/out" || fail "help has plain defaults"
 pass "the help lists targets and settings"
 
 # Defaults, which depend on the case, are those of settings, once each.
@@ -131,6 +131,7 @@ for setting in MECHANICS HEXMESH_OPTIONS COMPRESS_OPTIONS SEGMENT; do
 done
 [ ! -e "$bait" ] || fail "nothing of a name is executed"
 plan MR="$work/été_+@,.nrrd" chain || grep -q "No rule to make target.*été" "$work/err" || { cat "$work/err"; fail "letters of other languages are fine"; }
+! grep -nE '\$+[(]eval ' Makefile.pipeline pipelines/*.mk tests/*.mk tests/*/*.mk || fail "no makefile evaluates a text, in which a name could be code"
 pass "names that are code are refused for every path, and nothing is executed"
 
 # `breast run` gives make a link with a plain name instead.

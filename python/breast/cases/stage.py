@@ -32,6 +32,8 @@ _FOUND = {
     "compress": "{initial_thickness_mm:.0f} to {thickness_mm:.0f} mm, {force_N:.0f} N",
     "cc2mlo": "curve of {curve_mm:.0f} mm",
 }
+# Stages of the chain, each of which has a program or a view of its own.
+_OF_CHAIN = frozenset(("labels", "geometry", "mesh", "reference", "supine", "cc", "mlo", "cc-mammogram", "mlo-mammogram", "curve"))
 
 
 def _view_of(words: Sequence[str], stage: str) -> str:
@@ -41,11 +43,19 @@ def _view_of(words: Sequence[str], stage: str) -> str:
     return part[1].upper() if part else ""
 
 
-def label_of(stage: str, folder: str, words: Sequence[str]) -> str:
-    """The name of a stage for people: its program and view, after the variant of a study, as "softer: compress CC"."""
+def label_of(stage: str, folder: str, words: Sequence[str], prints: Path | None = None) -> str:
+    """The name of a stage for people: its program and view, after the variant of a study, as "softer: compress CC".
+
+    Several stages of a run may have one program. Those beside the chain add the file that the program prints, or their own name unless
+    the label contains it already: "forward (supine-cut-fixed)".
+    """
     variant = re.search(r"/studies/(.+)$", folder)
     program = words[words.index("--") + 1] if "--" in words[:-1] else words[0]
     label = " ".join(filter(None, [os.path.basename(program), _view_of(words, stage)]))
+    if prints:
+        label += f" {prints.name}"
+    elif stage not in _OF_CHAIN and not set(stage.split("-")) <= set(re.split("[ -]", label.lower())):
+        label += f" ({stage})"
     return f"{variant[1]}: {label}" if variant else label
 
 
@@ -112,7 +122,7 @@ def run_stage(record: Path, settings: str, words: Sequence[str], prints: Path | 
         Failed: the program failed; how it ended and where to look has been said, and the exit code is that of the program.
     """
     stage, folder = record.name.removeprefix(".").removesuffix(".settings"), str(record.parent)
-    label = label_of(stage, folder, words) + (f" {prints.name}" if prints else "")
+    label = label_of(stage, folder, words, prints)
     record.parent.mkdir(parents=True, exist_ok=True)
     record.unlink(missing_ok=True)
     if why := why_not_made(compressions):

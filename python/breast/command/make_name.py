@@ -10,7 +10,6 @@ from ..cases.make_text import NAME_CODE
 from ..errors import BreastError
 
 
-
 def _plain(c: str) -> bool:
     # A byte of a name that is not UTF-8 is one of these surrogates.
     return c > " " and c != "\x7f" and c not in NAME_CODE and not "\ud800" <= c <= "\udfff"

@@ -10,7 +10,6 @@ from pathlib import Path
 
 from ..cases.settings_table import Setting, read_settings
 from ..errors import BreastError, Failed
-from ..text_table import read_text
 from .child import Captured, capture_child, run_child
 from .installation import Installation
 from .make_name import folder_for_make, name_for_make, plain_for_make
@@ -99,29 +98,25 @@ def pipeline_settings(installation: Installation) -> list[str]:
     return [one.name for one in _settings(installation) if one.name != "RUN"]
 
 
-def setting_help(installation: Installation, name: str) -> str:
-    """What a setting does, what it accepts and its default; "" if there is no such setting."""
-    setting = next((s for s in _settings(installation) if s.name == name.upper()), None)
-    if setting is None:
-        return ""
-    found = [f"  {setting.name}={setting.value}  {setting.help}"]
-    kind, *bounds = setting.choices or ("set",)
-    if kind in ("number", "integer"):
-        what = "a number" if kind == "number" else "a whole number"
-        found.append(f"  accepts: {what}" + (f" from {bounds[0]} to {bounds[1]}" if bounds else ""))
-    elif kind != "set" and not kind.startswith("rows:") and "place" not in bounds:
-        found.append("  accepts: " + " ".join(setting.choices).replace("%", "..."))
-    # One that follows from the case is described in the table of settings.
-    defaults = read_text(os.path.join(installation.pipelines, "settings.mk"))
-    plain = re.search(rf"^{setting.name} \?= (?:\$\(BIN\)/)?([^$\n\\]+)$", defaults, re.MULTILINE)
-    if setting.default or plain:
-        found.append("  default: " + (setting.default or plain[1]))
-    return "\n".join(found) + "\n"
-
-
 def settings_help(installation: Installation) -> str:
     """The help of the makefile: all targets and settings, in an installation without what needs the source tree."""
     return _ask(["make", "-s", "-f", _make_file(installation), "help"])
+
+
+def setting_help(installation: Installation, name: str) -> str:
+    """What the makefile's help says of a setting, and what the setting accepts; "" if it says nothing of it."""
+    setting = next((s for s in _settings(installation) if s.name == name.upper()), None)
+    said = setting and re.search(rf"^  {setting.name}=.*\n(?: {{26}}.*\n)*", settings_help(installation), re.MULTILINE)
+    if not said:
+        return ""
+    found = "  " + " ".join(said[0].split()) + "\n"
+    kind, *bounds = setting.choices or ("set",)
+    if kind in ("number", "integer"):
+        what = "a number" if kind == "number" else "a whole number"
+        found += f"  accepts: {what}" + (f" from {bounds[0]} to {bounds[1]}" if bounds else "") + "\n"
+    elif kind != "set" and not kind.startswith("rows:") and "place" not in bounds:
+        found += "  accepts: " + " ".join(setting.choices).replace("%", "...") + "\n"
+    return found
 
 
 def asked_of_make(installation: Installation, r: PipelineRequest) -> tuple[list[str], str, str]:

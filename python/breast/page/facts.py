@@ -156,4 +156,6 @@ def facts_of_breast(labels_report: StageReport, compressions: list[StageReport])
 def fact_of_views(run: Path) -> list[Fact]:
     """How much of the breast both views show, if both are compressions."""
     lines = nipple_lines(run)
-    return [Fact("nipple_lines", "Nipple to muscle or image edge", f"CC {lines[0]:.0f} mm, MLO {lines[1]:.0f} mm", "of the simulation")] if lines else []
+    if not lines:
+        return []
+    return [Fact("nipple_lines", "Nipple to muscle or image edge", f"CC {lines[0]:.0f} mm, MLO {lines[1]:.0f} mm", "of the simulation")]

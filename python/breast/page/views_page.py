@@ -262,8 +262,8 @@ def _data(views: Views) -> dict[str, Any] | None:
 @kind("page", "RUN [SCAN] [SERIES] [no]",
       "the page of a run for those who read mammograms: where the tumour, or any place of one view, lies in the other, from its lookup.h5, "
       "cc and mlo (.vtkhdf, .vti), and from reports, labels and mesh if they are there. With SCAN the page states the number of the MR "
-      "slice and shows slices about the breast; 'no' leaves the slices out. The page holds no file names and no header data of the scan, but it shows images of the breast: give "
-      "it only to those who may see the scan")
+      "slice and shows slices about the breast; 'no' leaves the slices out. The page holds no file names and no header data of the scan, "
+      "but it shows images of the breast: give it only to those who may see the scan")
 def _page(request: Request) -> str:
     run, scan, series, shown = request.path(0), request.word(1), request.word(2, "0"), request.word(3, "yes")
     if not series.isdecimal() or shown not in ("yes", "no"):

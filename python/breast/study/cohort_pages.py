@@ -46,8 +46,8 @@ def cohort_page(cohort: CohortPages) -> str:
                "picture": _small(cohort.runs / row["case"] / "contours.png", 240)} for row in cohort.cases if _rank(row) == 0]
     done = [{"name": row["case"], "kind": _kind(row), "look": row["look"].split("; "),
              "page": f"{row['case']}/page.html" if exists(cohort.runs / row["case"] / "page.html") else "",
-             "cells": [row["volume_ml"], row["supine_nipple_mm"], *(f"{row[f'{v}_thickness_mm']}, {row[f'{v}_force_N']}"
-                                                                   for v in ("cc", "mlo"))],
+             "cells": [row["volume_ml"], row["supine_nipple_mm"],
+                       *(f"{row[f'{v}_thickness_mm']}, {row[f'{v}_force_N']}" for v in ("cc", "mlo"))],
              "picture": _small(cohort.runs / row["case"] / "figures/summary.png", 480)} for row in rows if _rank(row) > 0]
     return _page("cohort", cohort, cohort.runs.name, failed=failed, done=done, distributions=_distributions(cohort),
                  cost=table_of_text(cohort.cost.text()))
@@ -104,8 +104,8 @@ def _distribution(table: Table, column: str, women: Table) -> dict[str, Any] | N
     known = mean is not None and sd is not None
     low, high = min(values[0], mean - 2 * sd) if known else values[0], max(values[-1], mean + 2 * sd) if known else values[-1]
     scale = 100 / (high - low) if high > low else 0.0
-    return {"name": column, "cells": [str(len(values)), general(own_mean, 4), general(own_sd, 3), general(values[0], 4),
-                                       general(values[-1], 4)],
+    return {"name": column,
+            "cells": [str(len(values)), general(own_mean, 4), general(own_sd, 3), general(values[0], 4), general(values[-1], 4)],
             "women": f"{women.at(column, 'mean')} ({women.at(column, 'sd')})" if known else NO_VALUE,
             "band": (fixed((mean - sd - low) * scale, 1), fixed(2 * sd * scale, 1)) if known else None,
             "dots": [fixed((value - low) * scale, 1) for value in values]}
