@@ -85,7 +85,8 @@ def views_table(runs: list[Path]) -> Table:
             turned = [_TURN.name] if view == "CC" and _outside(_TURN, report) else []
             table.rows.append([run.name, view, report.text("status"),
                                *(fixed(report.number(b.key), b.decimals) for b in (*bounds, _TURN)), fixed(nipple_line(report), 1),
-                               apart, {None: NO_VALUE, True: "yes", False: "no"}[grips], fixed(report.number("newton_iterations"), 0), fixed(report.number("cpu_seconds"), 0),
+                               apart, {None: NO_VALUE, True: "yes", False: "no"}[grips],
+                               fixed(report.number("newton_iterations"), 0), fixed(report.number("cpu_seconds"), 0),
                                ", ".join(missed + turned) or "none"])
             rows[view].append((report, not missed))
     for view, found in rows.items():
