@@ -69,9 +69,10 @@ double on_edge(const CompressionResult& found) {
 }
 
 /// Whether a result between plates that were placed anew replaces the one before: always if it grips, and
-/// a finished one replaces one that was left.
+/// a finished one replaces one that was left, unless it used up the iterations on its way.
 bool is_better(const CompressionResult& next, const CompressionResult& before) {
   if (next.converged()) return true;
+  if (next.path.end == PathEnd::cost_limit) return false;
   const bool left = next.left_with_on_edge.has_value();
   if (!left && !next.contact) return false;
   if (left != before.left_with_on_edge.has_value()) return !left;
@@ -196,9 +197,14 @@ CompressionResult PlacementSearch::run() {
            farther.empty() ? options_.path.most_on_edge : surely_on_edge);
   first_ = stance_;
   bool search = presses_on_wall(best_->found());
-  for (std::size_t k = 0; search && k < farther.size(); ++k)
-    search = iterations_ < options_.path.most_iterations &&
-             search_at(farther[k], k + 1 == farther.size());
+  for (std::size_t k = 0; search && k < farther.size(); ++k) {
+    if (iterations_ >= options_.path.most_iterations) {
+      progress_.note(message("the plates are not placed anew: ", iterations_,
+                             " iterations were made; --most-iterations allows more"));
+      break;
+    }
+    search = search_at(farther[k], k + 1 == farther.size());
+  }
   return conclude();
 }
 
