@@ -198,7 +198,7 @@ void declare(Tool& tool, Choices& c) {
   tool.integer(
       c.most_iterations, "--most-iterations", "N",
       "no further step or placement of the plates begins after so many iterations of Newton's "
-      "method (usually 130 to 600 are made)",
+      "method; the exact end of the best placement is still sought (usually 160 to 600 are made)",
       1, 1000000);
   tool.choice(c.contact, "--contact", {"active-set", "al"},
               "contact algorithm: exact active set, or the paper's augmented Lagrangian");

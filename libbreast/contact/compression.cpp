@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 
 #include "contact/placed_compression.hpp"
@@ -99,18 +100,18 @@ std::vector<double> farther_image_edges(const CompressionOptions& options) {
   return {farthest - 0.5 * way, farthest};
 }
 
-/// Adds the cost of an earlier placement of the plates, whose iterations stand before those of the result.
-void charge(const CompressionResult& earlier, CompressionResult& found) {
+/// Adds the cost of another placement of the plates, whose iterations stand before those of the result.
+void charge(const CompressionResult& other, CompressionResult& found) {
   std::vector<IterationRecord>& rows = found.record.iterations;
-  for (IterationRecord& row : rows) row.step += earlier.steps;
-  rows.insert(rows.begin(), earlier.record.iterations.begin(), earlier.record.iterations.end());
-  found.steps += earlier.steps;
-  found.newton_iterations += earlier.newton_iterations;
-  found.linear_iterations += earlier.linear_iterations;
-  found.factorisations += earlier.factorisations;
-  found.path.indefinite += earlier.path.indefinite;
-  found.path.failures += earlier.path.failures;
-  for (const auto& [phase, seconds] : earlier.timer.seconds()) found.timer.add(phase, seconds);
+  for (IterationRecord& row : rows) row.step += other.steps;
+  rows.insert(rows.begin(), other.record.iterations.begin(), other.record.iterations.end());
+  found.steps += other.steps;
+  found.newton_iterations += other.newton_iterations;
+  found.linear_iterations += other.linear_iterations;
+  found.factorisations += other.factorisations;
+  found.path.indefinite += other.path.indefinite;
+  found.path.failures += other.path.failures;
+  for (const auto& [phase, seconds] : other.timer.seconds()) found.timer.add(phase, seconds);
 }
 
 /// The options with the angle by which the patient bends forwards, and gravity in her frame; `options.gravity` is that of a
@@ -147,9 +148,10 @@ class PlacementSearch {
   const MechanicsOptions& mechanics_;
   Progress& progress_;
   std::unique_ptr<PlacedCompression> best_;
-  Stance first_, stance_;                  // at first, and of the best
-  std::vector<CompressionResult> others_;  // in the order in which they were solved
-  int iterations_ = 0;                     // of all placements
+  Stance first_, stance_;                    // at first, and of the best
+  std::map<int, CompressionResult> others_;  // by number, in the order in which they were solved
+  int best_number_ = 0;
+  int iterations_ = 0;  // of all placements
 };
 
 /// Compresses with the plates at a place. The result is kept as the best or among the others.
@@ -164,11 +166,13 @@ void PlacementSearch::solve_at(const Stance& stance, double most_on_edge) {
   auto next = std::make_unique<PlacedCompression>(mesh_, std::move(placed), mechanics_, progress_);
   next->run();
   iterations_ += next->found().newton_iterations;
+  int number = best_ == nullptr ? 0 : int(others_.size()) + 1;
   if (best_ == nullptr || is_better(next->found(), best_->found())) {
     std::swap(next, best_);
+    std::swap(number, best_number_);
     stance_ = taken;
   }
-  if (next != nullptr) others_.push_back(std::move(next->found()));
+  if (next != nullptr) others_.emplace(number, std::move(next->found()));
 }
 
 /// Tries another place of the edge. Returns false if it grips, or if the plates would miss the breast there.
@@ -208,12 +212,13 @@ CompressionResult PlacementSearch::run() {
   return conclude();
 }
 
-/// The best placement, with the cost of all.
+/// The best placement, with the cost of all: its iterations stand after those of the others.
 CompressionResult PlacementSearch::conclude() {
-  if (best_->found().left_with_on_edge) best_->finish();
+  if (best_->found().left_with_on_edge)
+    best_->finish(std::max(0, options_.path.most_iterations - iterations_));
   CompressionResult found = std::move(best_->found());
   std::for_each(others_.rbegin(), others_.rend(),
-                [&](const CompressionResult& other) { charge(other, found); });
+                [&](const auto& other) { charge(other.second, found); });
   found.placements = 1 + int(others_.size());
   return found;
 }

@@ -48,7 +48,8 @@ StopReason explain_stop(const HexMesh& mesh, const Eigen::VectorXd& good, const 
   }
   if (path.end == PathEnd::cost_limit) {
     return {"cost_limit",
-            message("the limit of Newton iterations is reached; --most-iterations allows more")};
+            message("no step begins after ", path.iterations,
+                    " iterations at this place of the plates; --most-iterations allows more")};
   }
   if (path.end == PathEnd::out_of_reach) {
     return {"out_of_reach",

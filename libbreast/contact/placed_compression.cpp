@@ -344,9 +344,9 @@ void PlacedCompression::run() {
   count_factorisations();
 }
 
-void PlacedCompression::finish() {
+void PlacedCompression::finish(int iterations_left) {
   found_.left_with_on_edge.reset();
-  conclude_path([&] { return way_->finish(state_); });
+  conclude_path([&] { return way_->finish(state_, iterations_left); });
   count_factorisations();
 }
 

@@ -22,8 +22,9 @@ class PlacedCompression {
 
   /// From the stress-free shape to the target, or until the path is left.
   void run();
-  /// After a run that was left because the edges press on the wall (CompressionResult::left_with_on_edge): seeks its exact end.
-  void finish();
+  /// After a run that was left because the edges press on the wall (CompressionResult::left_with_on_edge): seeks its exact end
+  /// (ClosingPath::finish).
+  void finish(int iterations_left);
   CompressionResult& found() { return found_; }
   const CompressionResult& found() const { return found_; }
 

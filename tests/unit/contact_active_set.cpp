@@ -342,7 +342,7 @@ TEST(CompressionPath, EndsUnfinishedWhereTheEdgeCarriesTooMuchAndCanBeFinished) 
   EXPECT_FALSE(path.reached());
   EXPECT_GT(path.points.back().paddle_N, 0.05);
   EXPECT_LT(path.solves, whole.solves);
-  const PathResult finished = way.finish(state);
+  const PathResult finished = way.finish(state, 1000);
   EXPECT_TRUE(finished.reached());
   EXPECT_EQ(finished.thickness, whole.thickness);
   EXPECT_EQ(finished.points.back().paddle_N, whole.points.back().paddle_N);

@@ -54,6 +54,8 @@ TEST(DicomContrasts, AreThoseOfTheTypeOrOfTheName) {
       {"ORIGINAL\\PRIMARY\\M\\ND", "t1 tra dyn phase 1 in 60 s", "T1"},
       // The letter of "w/o" is no water image, and what it takes back is the word after it.
       {"ORIGINAL\\PRIMARY\\OTHER", "AX T1 W/O FS", "T1"},
+      {"ORIGINAL\\PRIMARY\\OTHER", "AX T1w/o FS", "T1"},
+      {"ORIGINAL\\PRIMARY\\OTHER", "T1 axw/o w/o FS", "T1"},
       {"ORIGINAL\\PRIMARY\\OTHER", "AXIAL T1 W/O FAT SAT", "T1"},
       {"ORIGINAL\\PRIMARY\\OTHER", "AX T1 W/O CONTRAST", "T1"},
       {"ORIGINAL\\PRIMARY\\OTHER", "AX T1 W/ FS", "T1 fat-suppressed"},

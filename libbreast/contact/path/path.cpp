@@ -99,7 +99,7 @@ class ClosingPath::Way {
   }
 
   PathResult follow(State& state);
-  PathResult finish(State& state);
+  PathResult finish(State& state, int iterations_left);
 
  private:
   // The way.
@@ -166,7 +166,8 @@ PathResult ClosingPath::Way::follow(State& state) {
   return conclude(state);
 }
 
-PathResult ClosingPath::Way::finish(State& state) {
+PathResult ClosingPath::Way::finish(State& state, int iterations_left) {
+  options_.most_iterations = result_.iterations + iterations_left;
   options_.most_on_edge = std::numeric_limits<double>::infinity();
   Waypoint beyond = trail_.here();
   const CompressionTarget* target = passed(beyond.point);
@@ -560,8 +561,8 @@ PathResult ClosingPath::follow(State& state) {
   return way_->follow(state);
 }
 
-PathResult ClosingPath::finish(State& state) {
-  return way_->finish(state);
+PathResult ClosingPath::finish(State& state, int iterations_left) {
+  return way_->finish(state, iterations_left);
 }
 
 PathResult follow_path(ContactSolver& solver, PlatePair& plates, State& state,

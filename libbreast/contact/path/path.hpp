@@ -32,7 +32,7 @@ struct PathOptions {
   double tolerance = 1e-9;
   double control_tolerance = 1e-4;  ///< relative, of force, pressure and area
   int most_solves = 400;
-  /// No step begins after so many iterations of Newton's method. Views of real women that the plates grip took 130 to 1076; this
+  /// No step begins after so many iterations of Newton's method. Views of real women that the plates grip took 160 to 1076; this
   /// is three times the mean of CC views.
   int most_iterations = 1200;
   /// Called before each position is solved with the part of the way to the nearest target (0 to 1) at
@@ -94,7 +94,7 @@ struct PathResult {
 /// along the path.
 using PaddleArea = std::function<double(const State&)>;
 
-/// The way of a pair of plates to a target. `solver` and `plates` must outlive this object.
+/// The way of a pair of plates to a target. `solver`, `plates` and `progress` must outlive this object.
 class ClosingPath {
  public:
   ClosingPath(ContactSolver& solver, PlatePair& plates, const CompressionTarget& target,
@@ -108,8 +108,9 @@ class ClosingPath {
   /// nothing.
   PathResult follow(State& state);
   /// After PathEnd::on_edge: seeks the exact end, as if PathOptions::most_on_edge were infinite. The result is that of the
-  /// whole path. Solver and plates must not have been used in between.
-  PathResult finish(State& state);
+  /// whole path. Solver and plates must not have been used in between. `iterations_left` replaces what PathOptions::most_iterations
+  /// leaves; the exact end is sought in any case.
+  PathResult finish(State& state, int iterations_left);
 
  private:
   class Way;

@@ -327,7 +327,7 @@ void check_syntax(const fs::path& file, const std::string& syntax) {
   constexpr std::array<std::string_view, 4> on_server{
       "1.2.840.10008.1.2.4.94", "1.2.840.10008.1.2.4.95", "1.2.840.10008.1.2.4.204",
       "1.2.840.10008.1.2.4.205"};
-  if (!syntax.starts_with(standard)) {
+  if (syntax != standard && !syntax.starts_with(std::string(standard) + ".")) {
     throw input_error(file.string(), ": transfer syntax ", syntax.substr(0, 64),
                       " is no standard one: export the series as Explicit VR Little Endian");
   }

@@ -72,10 +72,13 @@ class Words {
     constexpr std::array<std::pair<std::string_view, std::string_view>, 2> short_forms{
         {{"w/o", " without "}, {"w/", " with "}}};
     for (const auto& [form, words] : short_forms) {
-      for (std::size_t at = text.find(form); at != std::string::npos;
-           at = text.find(form, at + words.size())) {
-        if (at > 0 && std::isalnum(static_cast<unsigned char>(text[at - 1])) != 0) continue;
-        text.replace(at, form.size(), words);
+      std::size_t at = text.find(form);
+      while (at != std::string::npos) {
+        const bool in_word = at > 0 && std::isalnum(static_cast<unsigned char>(text[at - 1])) != 0;
+        const bool after_weighting = at > 1 && text[at - 2] == 't';  // "t1w/o fs"
+        const bool stays = in_word && !after_weighting;
+        if (!stays) text.replace(at, form.size(), words);
+        at = text.find(form, at + (stays ? form.size() : words.size()));
       }
     }
     return text;

@@ -190,8 +190,10 @@ DicomImage image_of(const fs::path& file, const DicomObject& object, int frame) 
   } catch (const Error& error) {
     image.fault = error.what();
     // A picture of the screen that was stored with a series is none of its slices.
-    constexpr const char* secondary_capture = "1.2.840.10008.5.1.4.1.1.7";
-    if (image.sop_class.starts_with(secondary_capture) && elements.value("0020|0032").empty())
+    const std::string secondary_capture = "1.2.840.10008.5.1.4.1.1.7";
+    const bool is_picture = image.sop_class == secondary_capture ||
+                            image.sop_class.starts_with(secondary_capture + ".");
+    if (is_picture && elements.value("0020|0032").empty())
       image.foreign = true;
   }
   return image;

@@ -32,7 +32,7 @@ class Grip:
     """A breast between plates.
 
     Attributes:
-        contact_percent: skin that touches the paddle, as a part of the breast's projection in front of the plates' edge.
+        contact_percent: skin and cut that touch the paddle, as a part of the breast's projection in front of the plates' edge.
         force_N: of paddle and detector.
         edge_percent: of these, the part on the rounded edge.
     """

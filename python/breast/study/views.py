@@ -62,7 +62,8 @@ def views_table(runs: list[Path]) -> Table:
     """One row a view of each run that has one: its numbers, the CC and MLO nipple lines' difference, and which bounds it misses.
 
     The bounds of docs/methods.md (Target and grip) are applied to the numbers of the report here again, whatever compress itself said,
-    and grips_by_shape is found from the shape of the file alone (grip.grip); where it contradicts the status, it is listed as missed.
+    and grips_by_shape is found from the shape of the file alone (grip.grip). It compares the contact with the whole silhouette, which is
+    larger than what compress compares it with; where it contradicts the status, it is listed as missed.
     The turn of the plates' edge, at most 15 degrees in CC, is listed as missed too, but no view is refused for it. The last two rows
     are the means of each view, and how many of its rows miss none of the other bounds.
     """
