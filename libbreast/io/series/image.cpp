@@ -193,8 +193,7 @@ DicomImage image_of(const fs::path& file, const DicomObject& object, int frame) 
     const std::string secondary_capture = "1.2.840.10008.5.1.4.1.1.7";
     const bool is_picture = image.sop_class == secondary_capture ||
                             image.sop_class.starts_with(secondary_capture + ".");
-    if (is_picture && elements.value("0020|0032").empty())
-      image.foreign = true;
+    if (is_picture && elements.value("0020|0032").empty()) image.foreign = true;
   }
   return image;
 }
