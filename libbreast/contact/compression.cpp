@@ -148,7 +148,7 @@ class PlacementSearch {
   const MechanicsOptions& mechanics_;
   Progress& progress_;
   std::unique_ptr<PlacedCompression> best_;
-  Stance first_, stance_;                    // at first, and of the best
+  Stance stance_;                            // of the best
   std::map<int, CompressionResult> others_;  // by number, in the order in which they were solved
   int best_number_ = 0;
   int iterations_ = 0;  // of all placements
@@ -183,7 +183,7 @@ bool PlacementSearch::search_at(double image_edge, bool last) {
     stance.bend_deg = balanced_bend_deg(*stance_.bend_deg, on_edges(best));
   progress_.note(message("the plates' edge carries ", std::round(100 * on_edge(best)),
                          " % of a plate's force: the plates are placed anew, their edge ",
-                         image_edge - *first_.image_edge,
+                         image_edge - *options_.plates.image_edge,
                          " mm farther from the wall than at first, the patient bent forwards by ",
                          *stance.bend_deg, " degrees"));
   try {
@@ -199,7 +199,6 @@ CompressionResult PlacementSearch::run() {
   const std::vector<double> farther = farther_image_edges(options_);
   solve_at({options_.plates.image_edge, options_.plates.bend_deg},
            farther.empty() ? options_.path.most_on_edge : surely_on_edge);
-  first_ = stance_;
   bool search = presses_on_wall(best_->found());
   for (std::size_t k = 0; search && k < farther.size(); ++k) {
     if (iterations_ >= options_.path.most_iterations) {

@@ -42,7 +42,7 @@ PlacedCompression::PlacedCompression(const HexMesh& mesh, CompressionOptions opt
       solver_(scene_.solid().space()->pattern) {}
 
 /// Loads the body alone, in steps if one step does not converge. `name` is the name of the load.
-bool PlacedCompression::load_with(const Eigen::VectorXd& load, const char* name, State& state) {
+bool PlacedCompression::load_with(const Eigen::VectorXd& load, const char* name) {
   Timer::Scope phase(found_.timer, name);
   SaddleMatrix matrix = body_.problem.make_matrix();
   LoadSteps steps;
@@ -50,7 +50,7 @@ bool PlacedCompression::load_with(const Eigen::VectorXd& load, const char* name,
   steps.solve = [&](State& trial, double, double) -> NewtonResult {
     return equilibrate(body_.problem, solver_, matrix, trial, {}, nullptr, log_.begin_step(name));
   };
-  const LoadReached reached = follow_load(steps, state);
+  const LoadReached reached = follow_load(steps, state_);
   if (reached.whole()) return true;
   found_.reason_id = std::string(name) + "_not_carried";
   found_.load_reached = reached.part;
@@ -102,13 +102,13 @@ PathOptions PlacedCompression::path_options() {
 
 /// Whether only the plates hold the breast at the end of the path. If a hand still does, this is
 /// not a compression, and the result says so.
-bool PlacedCompression::has_let_go(const State& state) {
+bool PlacedCompression::has_let_go() {
   if (options_.positioning == Positioning::hanging) return true;
   const Hand hand;
   const double weight = hand.weight.at(found_.path.way), pull = hand.pull.at(found_.path.way);
   if (weight == 1 && (pull == 1 || !(options_.pull_N > 0))) return true;
   found_.load_reached = weight;
-  const StopReason why = explain_stop(mesh_, state.x, found_.path, found_.plates);
+  const StopReason why = explain_stop(mesh_, state_.x, found_.path, found_.plates);
   found_.reason_id = why.id;
   found_.record.reason = message("the compression ends at a thickness of ", found_.path.thickness,
                                  " mm, at which the hand still carries ", 100 * (1 - weight),
@@ -145,17 +145,17 @@ void PlacedCompression::conclude_path(const std::function<PathResult()>& follow)
     found_.left_with_on_edge = edge_parts(found_.path.points.back());
     return;
   }
-  if (!has_let_go(state_)) return;
+  if (!has_let_go()) return;
   {
     Timer::Scope phase(found_.timer, "results");
     found_.min_det_F = found_.path.final_step.forces.min_det_F;
     record_compression(scene_, options_, state_, *contact_, body_.load->total(), found_);
     conclude(found_, scene_, state_, options_.gravity);
-    note_stage("compressed", state_);
+    note_stage("compressed");
   }
-  check_stability(state_, *contact_);
-  if (scene_.options().estimate == Estimate::step) estimate(state_, *contact_);
-  say_how_it_ended(state_);
+  check_stability();
+  if (scene_.options().estimate == Estimate::step) estimate();
+  say_how_it_ended();
   const bool usable = found_.converged() || (found_.record.status == SolveStatus::stopped_early &&
                                              (found_.acceptable || !found_.contact->ends_image));
   if (options_.states > 0 && usable) solve_states();
@@ -175,19 +175,19 @@ void PlacedCompression::solve_states() {
 
 /// The tangent of the final state with its touching nodes constrained, including the rotation of
 /// their forces.
-void PlacedCompression::check_stability(const State& state, const ContactSolver& contact) {
+void PlacedCompression::check_stability() {
   Timer::Scope phase(found_.timer, "stability");
   SaddleMatrix matrix = body_.problem.make_matrix();
   Forces forces;
-  found_.stable = contact.problem().tangent(state, forces, matrix) &&
-                  solver_.factorise(matrix, contact.constraints(state), false).ok;
+  found_.stable = contact_->problem().tangent(state_, forces, matrix) &&
+                  solver_.factorise(matrix, contact_->constraints(state_), false).ok;
   note_solver(solver_, matrix, found_);
   if (!found_.stable) found_.doubts.push_back(unknown_stability);
 }
 
 /// Discretisation error of the final state with a fixed touching set.
-void PlacedCompression::estimate(const State& state, const ContactSolver& contact) {
-  const auto fixed = contact.for_estimate(mesh_, found_.plates, state);
+void PlacedCompression::estimate() {
+  const auto fixed = contact_->for_estimate(mesh_, found_.plates, state_);
   if (!fixed) {
     found_.error_estimate_how =
         "there is no estimate for plates that press on faces; solve with more elements and "
@@ -197,7 +197,7 @@ void PlacedCompression::estimate(const State& state, const ContactSolver& contac
   if (mesh_.order == 1 && !mesh_.landmarks.empty()) {
     Timer::Scope phase(found_.timer, "error estimate");
     SaddleMatrix matrix = body_.problem.make_matrix();
-    note_estimate(estimate_error(scene_, state, options_.gravity, matrix, solver_, *fixed),
+    note_estimate(estimate_error(scene_, state_, options_.gravity, matrix, solver_, *fixed),
                   ", nodes on the plates held along their normals", found_);
   }
   if (found_.error_estimate_mm < 0) {
@@ -216,11 +216,11 @@ void PlacedCompression::record_path() {
   found_.residual = path.final_step.residual;
 }
 
-void PlacedCompression::say_how_it_ended(const State& state) {
+void PlacedCompression::say_how_it_ended() {
   const PathResult& path = found_.path;
   found_.record.status = path.reached() ? SolveStatus::converged : SolveStatus::stopped_early;
   if (!path.reached()) {
-    const StopReason why = explain_stop(mesh_, state.x, path, found_.plates);
+    const StopReason why = explain_stop(mesh_, state_.x, path, found_.plates);
     found_.reason_id = why.id;
     found_.load_reached = load_reached();
     found_.record.reason =
@@ -286,36 +286,36 @@ void PlacedCompression::judge_against_practice() {
 /// Brings the breast between the plates: as it hangs, or lifted by a hand that carries its weight. Then
 /// the hanging shape is not needed, and for a limp breast it may not exist. Returns false if no
 /// equilibrium is found.
-bool PlacedCompression::position(State& state) {
+bool PlacedCompression::position() {
   if (options_.positioning == Positioning::lifted) {
-    place(state);
-    return lift(state);
+    place();
+    return lift();
   }
-  if (!load_with(load_, "gravity", state)) return false;
-  place(state);
-  note_stage("hanging", state);
+  if (!load_with(load_, "gravity")) return false;
+  place();
+  note_stage("hanging");
   return true;
 }
 
-void PlacedCompression::place(const State& start) {
-  const std::vector<Vec3> points = unflatten(start.x);
+void PlacedCompression::place() {
+  const std::vector<Vec3> points = unflatten(state_.x);
   found_.pose = place_pose(mesh_, points, options_.angle_deg, options_.plates);
   found_.plates = place_plates(mesh_, points, found_.pose, options_.plates);
-  start_ = start.x;
+  start_ = state_.x;
 }
 
-void PlacedCompression::note_stage(const char* name, const State& state) {
-  found_.stages.push_back(positioning_stage(name, mesh_, start_, state.x, found_.plates.paddle));
+void PlacedCompression::note_stage(const char* name) {
+  found_.stages.push_back(positioning_stage(name, mesh_, start_, state_.x, found_.plates.paddle));
 }
 
 /// Pulls a breast that a hand has lifted forwards.
-bool PlacedCompression::lift(State& state) {
-  note_stage("lifted", state);
-  pull_ = Eigen::VectorXd::Zero(state.x.size());
+bool PlacedCompression::lift() {
+  note_stage("lifted");
+  pull_ = Eigen::VectorXd::Zero(state_.x.size());
   if (!(options_.pull_N > 0)) return true;
   pull_ = pull_forwards(mesh_, mesh_.reference, found_.plates.paddle, options_.pull_N);
-  if (!load_with(pull_, "pull", state)) return false;
-  note_stage("pulled", state);
+  if (!load_with(pull_, "pull")) return false;
+  note_stage("pulled");
   return true;
 }
 
@@ -336,7 +336,7 @@ void PlacedCompression::say_where_plates_stand() const {
 
 void PlacedCompression::run() {
   state_ = scene_.at_rest(flatten(mesh_.reference));
-  if (position(state_)) {
+  if (position()) {
     set_target();
     say_where_plates_stand();
     close_plates();

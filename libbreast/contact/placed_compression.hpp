@@ -29,22 +29,22 @@ class PlacedCompression {
   const CompressionResult& found() const { return found_; }
 
  private:
-  bool load_with(const Eigen::VectorXd& load, const char* name, State& state);
-  bool position(State& state);
-  bool lift(State& state);
-  void place(const State& start);
+  bool load_with(const Eigen::VectorXd& load, const char* name);
+  bool position();
+  bool lift();
+  void place();
   void set_target();
   PathOptions path_options();
-  bool has_let_go(const State& state);
+  bool has_let_go();
   void close_plates();
   void conclude_path(const std::function<PathResult()>& follow);
   void record_path();
   void count_factorisations() { found_.factorisations = solver_.factorisations() - of_states_; }
-  void check_stability(const State& state, const ContactSolver& contact);
-  void estimate(const State& state, const ContactSolver& contact);
-  void note_stage(const char* name, const State& state);
+  void check_stability();
+  void estimate();
+  void note_stage(const char* name);
   void say_where_plates_stand() const;
-  void say_how_it_ended(const State& state);
+  void say_how_it_ended();
   double load_reached() const;
   void judge_against_practice();
   void refuse_without_grip();

@@ -14,13 +14,9 @@ namespace breast {
 
 namespace {
 
-struct Box {
-  std::array<int, 3> first{}, last{};  ///< voxels, inclusive
-};
-
 /// Voxels of `scan` over the domain's columns, from in front of the breast
 /// to behind the search range.
-Box side_box(const Work& coarse, const Grid& grid, Side side) {
+VoxelBox side_box(const Work& coarse, const Grid& grid, Side side) {
   const Grid& working = coarse.scan.grid;
   double nearest = 1e9, deepest = 0;
   for (int k = 0; k < working.size[2]; ++k) {
@@ -35,7 +31,7 @@ Box side_box(const Work& coarse, const Grid& grid, Side side) {
       working.to_patient(Vec3(coarse.domain.first - 0.5, (nearest - air) / working.spacing[1], 0)));
   const Vec3 high = grid.to_index(working.to_patient(
       Vec3(coarse.domain.last + 0.5, (deepest + behind) / working.spacing[1], 0)));
-  Box box;
+  VoxelBox box;
   for (int d = 0; d < 2; ++d) {
     box.first[d] = std::clamp(int(std::ceil(low[d] - 1e-6)), 0, grid.size[d] - 1);
     box.last[d] = std::clamp(int(std::floor(high[d] + 1e-6)), 0, grid.size[d] - 1);
@@ -46,21 +42,6 @@ Box side_box(const Work& coarse, const Grid& grid, Side side) {
   if (side == Side::left) box.last[0] = std::min(box.last[0] + beside, grid.size[0] - 1);
   if (side == Side::right) box.first[0] = std::max(box.first[0] - beside, 0);
   return box;
-}
-
-template <class Value>
-Volume<Value> cropped(const Volume<Value>& volume, const Box& box) {
-  Grid grid = volume.grid;
-  grid.origin = volume.grid.to_patient(Vec3(box.first[0], box.first[1], box.first[2]));
-  for (int d = 0; d < 3; ++d) grid.size[d] = box.last[d] - box.first[d] + 1;
-  Volume<Value> out(grid);
-  for (int k = 0; k < grid.size[2]; ++k) {
-    for (int j = 0; j < grid.size[1]; ++j) {
-      const Value* from = &volume.at(box.first[0], box.first[1] + j, box.first[2] + k);
-      std::copy(from, from + grid.size[0], &out.at(0, j, k));
-    }
-  }
-  return out;
 }
 
 /// Mean brightness of the tissue within about 4 mm.
@@ -221,7 +202,7 @@ void clear_of_air(Work& fine) {
 
 Work on_scan_grid(const Work& coarse, const Images& images, Side side) {
   Work fine;
-  const Box box = side_box(coarse, images.tissue.grid, side);
+  const VoxelBox box = side_box(coarse, images.tissue.grid, side);
   fine.scan = cropped(images.tissue, box);
   if (images.speckled) remove_speckle(fine.scan);
   if (!images.fat_share.voxels.empty()) fine.fat_share = cropped(images.fat_share, box);

@@ -79,14 +79,7 @@ TEST(DicomContrasts, AreThoseOfTheTypeOrOfTheName) {
 }
 
 ShortVolume volume_of(int shift) {
-  Grid grid;
-  grid.size = {20, 18, 16};
-  grid.spacing = Vec3(4, 4.5, 5);
-  grid.origin = Vec3(-40, -60, -30);
-  ShortVolume volume(grid);
-  for (std::size_t n = 0; n < volume.voxels.size(); ++n)
-    volume.voxels[n] = std::int16_t((n * 37) % 1009 + std::size_t(shift));
-  return volume;
+  return numbered(exported_grid(), 1009, shift);
 }
 
 const std::map<std::string, std::string>& kinds() {

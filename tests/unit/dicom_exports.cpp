@@ -25,16 +25,12 @@ using Features = std::set<std::string>;
 
 /// Of this many slices, large enough for a scan of a breast; sagittal ones run from right to left.
 ShortVolume test_volume(bool sagittal, double x, int shift) {
-  Grid grid;
-  grid.size = {20, 18, 16};
-  grid.spacing = Vec3(4, 4.5, 5.02);
-  grid.origin = sagittal ? Vec3(x, -40, 60) : Vec3(-40, -60, -30);
+  Grid grid = exported_grid();
+  grid.spacing[2] = 5.02;
+  if (sagittal) grid.origin = Vec3(x, -40, 60);
   if (sagittal) grid.direction << 0, 0, 1, 1, 0, 0, 0, -1, 0;
   if (sagittal) grid.direction.col(2) = grid.direction.col(0).cross(grid.direction.col(1));
-  ShortVolume volume(grid);
-  for (std::size_t n = 0; n < volume.voxels.size(); ++n)
-    volume.voxels[n] = std::int16_t((n * 37) % 1009 + std::size_t(shift));
-  return volume;
+  return numbered(grid, 1009, shift);
 }
 
 /// The peculiarity, and a word of the refusal if it cannot be read.

@@ -21,14 +21,7 @@ using namespace fixtures;
 using ShortVolume = Volume<std::int16_t>;
 
 ShortVolume scan_of(int shift) {
-  Grid grid;
-  grid.size = {20, 18, 16};
-  grid.spacing = Vec3(4, 4.5, 5);
-  grid.origin = Vec3(-40, -60, -30);
-  ShortVolume volume(grid);
-  for (std::size_t n = 0; n < volume.voxels.size(); ++n)
-    volume.voxels[n] = std::int16_t((n * 37) % 241 + std::size_t(shift));
-  return volume;
+  return numbered(exported_grid(), 241, shift);  // of 8 bits
 }
 
 /// A series in a folder of its own.

@@ -189,7 +189,7 @@ DicomImage image_of(const fs::path& file, const DicomObject& object, int frame) 
     take_scale(elements, image);
   } catch (const Error& error) {
     image.fault = error.what();
-    // A picture of the screen that was stored with a series is none of its slices.
+    // A screen capture that was stored with a series is not one of its slices.
     const std::string secondary_capture = "1.2.840.10008.5.1.4.1.1.7";
     const bool is_picture = image.sop_class == secondary_capture ||
                             image.sop_class.starts_with(secondary_capture + ".");

@@ -39,28 +39,16 @@ struct SkinSample {
   Profile profile;
 };
 
-/// The part of a volume within `reach` of a place, mm.
-template <class Value>
-Volume<Value> part_around(const Volume<Value>& volume, const Vec3& patient, double reach) {
-  const Grid& whole = volume.grid;
-  const Vec3 at = whole.to_index(patient);
-  std::array<int, 3> first{};
-  Grid grid = whole;
+/// The voxels within `reach` of a place along each axis, mm.
+VoxelBox box_around(const Grid& grid, const Vec3& patient, double reach) {
+  const Vec3 at = grid.to_index(patient);
+  VoxelBox box;
   for (int d = 0; d < 3; ++d) {
-    const double half = reach / whole.spacing[d];
-    first[d] = std::clamp(int(std::ceil(at[d] - half)), 0, whole.size[d] - 1);
-    const int last = std::clamp(int(std::floor(at[d] + half)), first[d], whole.size[d] - 1);
-    grid.size[d] = last - first[d] + 1;
+    const double half = reach / grid.spacing[d];
+    box.first[d] = std::clamp(int(std::ceil(at[d] - half)), 0, grid.size[d] - 1);
+    box.last[d] = std::clamp(int(std::floor(at[d] + half)), box.first[d], grid.size[d] - 1);
   }
-  grid.origin = whole.to_patient(Vec3(first[0], first[1], first[2]));
-  Volume<Value> part(grid);
-  for (int k = 0; k < grid.size[2]; ++k) {
-    for (int j = 0; j < grid.size[1]; ++j) {
-      for (int i = 0; i < grid.size[0]; ++i)
-        part.at(i, j, k) = volume.at(first[0] + i, first[1] + j, first[2] + k);
-    }
-  }
-  return part;
+  return box;
 }
 
 /// Area vector (outward, grid axes) of a voxel's faces towards air.
@@ -205,10 +193,10 @@ Areola find_areola(const Volume<float>& brightness, const Mask& breast, const Ma
   Areola areola;
   if (breast.grid.spacing.maxCoeff() > thickest_voxel) return areola;
   const double reach = front_reach + 3 * mean_width;
-  const Mask near_body = part_around(body, front, reach);
+  const VoxelBox box = box_around(body.grid, front, reach);
+  const Mask near_body = cropped(body, box);
   std::vector<SkinSample> samples =
-      skin_samples(brightness, part_around(breast, front, reach), near_body,
-                   part_around(skin_distance, front, reach));
+      skin_samples(brightness, cropped(breast, box), near_body, cropped(skin_distance, box));
   std::erase_if(samples, [](const SkinSample& sample) { return !(sample.out[1] < 0); });
   if (samples.empty()) return areola;
   std::vector<double> all;

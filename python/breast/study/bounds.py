@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 ANY = float("inf")
+LEAST_CONTACT_PERCENT, MOST_EDGE_PERCENT = 40, 40
+"""Plates that grip touch at least this part of the projection, and less than this part of a plate's force lies on its rounded edge."""
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ..cases.compression import VIEWS
 from ..errors import BreastError
-from .bounds import ANY, Bound
+from .bounds import ANY, LEAST_CONTACT_PERCENT, MOST_EDGE_PERCENT, Bound
 from .files import exists
 from .kinds import Request, kind
 from .stage_report import StageReport
@@ -15,9 +15,9 @@ from .table import NO_VALUE, Table, fixed
 
 _BOUNDS = (Bound("thickness_mm", "thickness_mm", 1, 30, 90), Bound("paddle_N", "force_N", 1, 50, 180),
            Bound("pressure_kPa", "pressure_kPa", 1, 5, 30),
-           Bound("contact_percent", "coverage/contact_percent_of_projected", 0, 40, ANY),
-           Bound("paddle_edge_percent", "plates/paddle/edge_force_percent", 0, -ANY, 40),
-           Bound("detector_edge_percent", "plates/detector/edge_force_percent", 0, -ANY, 40),
+           Bound("contact_percent", "coverage/contact_percent_of_projected", 0, LEAST_CONTACT_PERCENT, ANY),
+           Bound("paddle_edge_percent", "plates/paddle/edge_force_percent", 0, -ANY, MOST_EDGE_PERCENT),
+           Bound("detector_edge_percent", "plates/detector/edge_force_percent", 0, -ANY, MOST_EDGE_PERCENT),
            Bound("min_scaled_jacobian", "min_scaled_jacobian", 3, 0.1, ANY))
 _VOLUME = {"CC": Bound("volume_percent", "coverage/volume_percent", 0, 55, ANY),
            "": Bound("volume_percent", "coverage/volume_percent", 0, 90, ANY)}
