@@ -9,9 +9,11 @@
 
 #include "contact/faces.hpp"
 #include "core/units.hpp"
+#include "mechanics/deformation.hpp"
 #include "mesh/gauss.hpp"
 #include "mesh/locate.hpp"
 #include "mesh/muscle_front.hpp"
+#include "mesh/nodal.hpp"
 #include "mesh/shape.hpp"
 
 namespace breast {
@@ -43,18 +45,6 @@ std::vector<HexShape> gauss_shapes(int order) {
   std::vector<HexShape> shapes;
   for (const auto& point : gauss_cube(order + 1)) shapes.push_back(hex_shape(order, point.at));
   return shapes;
-}
-
-/// The deformation gradient F = ∂x/∂X of an element at a point.
-Mat3 deformation_gradient(const HexMesh& mesh, const Eigen::VectorXd& x, int element,
-                          const HexShape& shape) {
-  Mat3 now = Mat3::Zero(), before = Mat3::Zero();
-  for (int a = 0; a < mesh.nodes_per_element(); ++a) {
-    const int node = mesh.element(element)[a];
-    now += x.segment<3>(3 * node) * shape.gradients.col(a).transpose();
-    before += mesh.reference[std::size_t(node)] * shape.gradients.col(a).transpose();
-  }
-  return now * before.inverse();
 }
 
 }  // namespace
@@ -142,11 +132,12 @@ SelfContact self_contact(const HexMesh& mesh, const std::vector<Vec3>& x) {
 
 std::map<Tissue, StrainRange> strain_ranges(const HexMesh& mesh, const Eigen::VectorXd& x) {
   const std::vector<HexShape> shapes = gauss_shapes(mesh.order);
+  const std::vector<Vec3> points = unflatten(x);
   std::map<Tissue, StrainRange> ranges;
   for (int e = 0; e < mesh.elements(); ++e) {
     StrainRange& range = ranges[mesh.tissue[std::size_t(e)]];
     for (const HexShape& shape : shapes) {
-      const Mat3 F = deformation_gradient(mesh, x, e, shape);
+      const Mat3 F = deformation_gradient(mesh, e, shape, mesh.reference, points);
       const Vec3 squares =
           Eigen::SelfAdjointEigenSolver<Mat3>(F.transpose() * F, Eigen::EigenvaluesOnly)
               .eigenvalues();
@@ -165,11 +156,13 @@ std::vector<double> smallest_det_F(const HexMesh& mesh, const Eigen::VectorXd& x
   for (int corner = 0; corner < 8; ++corner) {
     shapes.push_back(hex_shape(mesh.order, hex_node_local(mesh.order, corner)));
   }
+  const std::vector<Vec3> points = unflatten(x);
   std::vector<double> smallest(std::size_t(mesh.elements()));
   for (int e = 0; e < mesh.elements(); ++e) {
     double least = 1e30;
     for (const HexShape& shape : shapes) {
-      least = std::min(least, deformation_gradient(mesh, x, e, shape).determinant());
+      least = std::min(least,
+                       deformation_gradient(mesh, e, shape, mesh.reference, points).determinant());
     }
     smallest[std::size_t(e)] = least;
   }

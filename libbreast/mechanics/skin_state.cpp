@@ -8,10 +8,15 @@
 
 #include "fem/gather.hpp"
 #include "fem/membrane_kernel.hpp"
+#include "material/stability.hpp"
+#include "mechanics/deformation.hpp"
 
 namespace breast {
 
 namespace {
+
+/// A tissue that is strained beyond the stable range of its law keeps this fraction of its shear modulus here.
+constexpr double least_remaining = 0.01;
 
 // Area elements √det a at the rule's points, times its weights.
 template <int N>
@@ -23,6 +28,15 @@ Eigen::Matrix<double, QuadRule<N>::points, 1> areas(const Eigen::Matrix<double, 
     out[q] = rule.weight[q] * std::sqrt((t.transpose() * t).determinant());
   }
   return out;
+}
+
+/// Shear modulus (Pa) of the tissue of an element, as it is deformed, in the direction in which it is weakest. Laws that stiffen resist
+/// the bending of the skin by more than they do at rest.
+double beneath(const HexMesh& mesh, const MaterialSet& materials, int element,
+               const std::vector<Vec3>& reference, const std::vector<Vec3>& deformed) {
+  const Law& law = materials.law(mesh.tissue[std::size_t(element)]);
+  const Mat3 b = isochoric_stretch_at_centre(mesh, element, reference, deformed);
+  return law.shear_modulus() * std::max(weakest_shear(law, b), least_remaining);
 }
 
 template <int N>
@@ -40,12 +54,13 @@ SkinState state_of(const HexMesh& mesh, const MaterialSet& materials,
     in.skin = materials.skin;
     const double area = areas<N>(in.deformed).sum();
     const double resultant = membrane_resultants<N>(in)[0];  // Pa·mm
-    const double beneath = materials.law(mesh.tissue[mesh.skin_faces[f].element]).shear_modulus();
     ++state.faces;
     total += area;
     // Rounding gives resultants of either sign in a skin at rest.
     if (!(resultant < -1e-9 * materials.law(Tissue::skin).shear_modulus())) continue;
-    const double wrinkle = std::numbers::pi * -resultant / beneath;
+    const double wrinkle =
+        std::numbers::pi * -resultant /
+        beneath(mesh, materials, mesh.skin_faces[f].element, reference, deformed);
     ++state.compressed;
     state.compressed_share += area;
     state.least_resultant_N_per_m = std::min(state.least_resultant_N_per_m, 1e-3 * resultant);

@@ -8,7 +8,8 @@
 namespace breast {
 
 /// A membrane on a soft half-space under a compressive resultant N wrinkles at wave numbers above
-/// 2μ/|N| (μ of the tissue beneath), so with wave lengths below π|N|/μ. Where that is at least two
+/// 2μ/|N|, so with wave lengths below π|N|/μ; μ: the shear modulus of the deformed tissue beneath, in its
+/// weakest direction. Where that is at least two
 /// elements long the mesh itself can wrinkle; it cannot resolve shorter wrinkles, which do no harm.
 struct SkinState {
   int faces = 0, compressed = 0, wrinkling = 0;      ///< counts

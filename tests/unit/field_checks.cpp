@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "fem/membrane_kernel.hpp"
 #include "fixtures/block.hpp"
@@ -102,6 +103,13 @@ TEST(Skin, WrinklesWhenStiffAndThick) {
   EXPECT_EQ(state.wrinkling, 4 * 16);
   EXPECT_GT(state.longest_wrinkle_mm, 40);
   EXPECT_EQ(skin_state(mesh, set, mesh.reference, mesh.reference).compressed, 0);
+  // Under a stretch of 0.8 the weakest shear modulus of a neo-Hookean tissue is 0.8² times that at rest.
+  for (const Tissue tissue : {Tissue::fat, Tissue::fibroglandular})
+    set.laws[std::size_t(tissue)] = {"neo_hookean", {610}};
+  state = skin_state(mesh, set, mesh.reference, deformed);
+  const double shear = set.law(Tissue::fat).shear_modulus();
+  EXPECT_NEAR(state.longest_wrinkle_mm * 0.64 * shear,
+              std::numbers::pi * -1e3 * state.least_resultant_N_per_m, 1e-6 * shear);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "fem/stress.hpp"
 #include "fixtures/block.hpp"
 #include "fixtures/elastic_scene.hpp"
+#include "material/stability.hpp"
 
 namespace breast {
 namespace {
@@ -33,6 +34,13 @@ HexMesh slice(const std::vector<double>& lines, int across, double width, int or
   }
   mesh.points = mesh.reference = mesh.imaged;
   return mesh;
+}
+
+/// One wave length deep, in elements of equal size.
+HexMesh even_slice(double wavelength) {
+  std::vector<double> lines;
+  for (int i = 0; i <= 24; ++i) lines.push_back(wavelength * i / 24);
+  return slice(lines, 12, wavelength / 2, 1);
 }
 
 /// Symmetry planes at both ends of the half wave, plane strain, nothing moves at the bottom.
@@ -59,14 +67,38 @@ MechanicsOptions tissues(double fat_percent, double skin_factor, Element element
   return options;
 }
 
+/// Plane-strain compression along y with a free surface.
+Mat3 squeeze(double strain) {
+  return Vec3(1 / (1 - strain), 1 - strain, 1).asDiagonal();
+}
+
+/// Every layer in the same strain, its pressure that of a free surface.
+State squeezed(const HexMesh& mesh, const Scene& scene, const Problem& problem, double strain) {
+  const Mat3 f = squeeze(strain);
+  const Mat3 c = f.transpose() * f;
+  State state = scene.at_rest(flatten(mesh.reference));
+  for (int node = 0; node < mesh.nodes(); ++node) {
+    state.x.segment<3>(3L * node) = f * mesh.reference[std::size_t(node)];
+  }
+  const int rows = problem.space().pressures->rows;
+  for (int e = 0; e < mesh.elements(); ++e) {
+    Stress stress;
+    const Law& law = scene.options().materials.law(mesh.tissue[std::size_t(e)]);
+    law_stress(law, true, c, 1, false, stress);
+    state.p[long(rows) * e] = (f * from_voigt(stress.s) * f.transpose())(0, 0);
+  }
+  return state;
+}
+
 // vᵀKv of the motion that a wave of the surface forces on the body, smallest in energy: negative where
-// the wave grows by itself.
-double stiffness_of_wave(const HexMesh& mesh, const MechanicsOptions& options, double width) {
+// the wave grows by itself. `strain`: of the body before.
+double stiffness_of_wave(const HexMesh& mesh, const MechanicsOptions& options, double width,
+                         double strain = 0) {
   const Scene scene(mesh, options);
   const Problem problem = scene.problem(Eigen::VectorXd::Zero(3L * mesh.nodes())).problem;
   SaddleMatrix matrix = problem.make_matrix();
   Forces forces;
-  EXPECT_TRUE(problem.tangent(scene.at_rest(flatten(mesh.reference)), forces, matrix));
+  EXPECT_TRUE(problem.tangent(squeezed(mesh, scene, problem, strain), forces, matrix));
   Constraints held = half_wave(mesh, width);
   Eigen::VectorXd wave = Eigen::VectorXd::Zero(3L * mesh.nodes());
   double top = 0;
@@ -100,9 +132,7 @@ TEST(Buckling, MembraneOnAHalfSpaceGivesWayAtTheImposedWavelength) {
   constexpr double thickness = 1.45;
   for (const double wavelength : {24.0, 48.0}) {
     const double width = wavelength / 2;
-    std::vector<double> lines;
-    for (int i = 0; i <= 24; ++i) lines.push_back(wavelength * i / 24);
-    HexMesh mesh = slice(lines, 12, width, 1);
+    HexMesh mesh = even_slice(wavelength);
     std::vector<Face> surface;
     for (const Face& face : mesh.skin_faces) {
       double least = 1e9;
@@ -124,24 +154,42 @@ TEST(Buckling, MembraneOnAHalfSpaceGivesWayAtTheImposedWavelength) {
   }
 }
 
-// A slice under plane-strain compression along y, its surface free: every layer in the same strain,
-// its pressure that of a free surface. Whether the tangent is positive definite.
+// A wave of the surface of a neo-Hookean half-space meets μ/z (z³ + z² + 3z − 1)/(1 + z) per wave number after a
+// compression with the stretch √z (Biot 1963, Appl. Sci. Res. A12; 2μ at rest). skin_state assumes twice the shear modulus of
+// the deformed tissue in its weakest direction, which is less, also of laws that stiffen, but not by much.
+TEST(Buckling, DeformedTissueResistsTheWaveByMoreThanItsWeakestShear) {
+  constexpr double wavelength = 24;
+  const HexMesh mesh = even_slice(wavelength);
+  MechanicsOptions options;
+  const auto relative = [&](const Law& law, double strain) {
+    for (Law& each : options.materials.laws) each = law;
+    return stiffness_of_wave(mesh, options, wavelength / 2, strain) /
+           stiffness_of_wave(mesh, options, wavelength / 2);
+  };
+  const auto weakest = [](const Law& law, double strain) {
+    return weakest_shear(law, squeeze(strain) * squeeze(strain));
+  };
+  const Law soft{"neo_hookean", {300}};
+  for (const double strain : {0.1, 0.2, 0.3}) {
+    const double z = std::pow(1 - strain, 2);
+    const double exact = (z * z * z + z * z + 3 * z - 1) / (z * (1 + z)) / 2;
+    EXPECT_NEAR(relative(soft, strain) / exact, 1, 0.03) << strain;
+    EXPECT_LE(weakest(soft, strain), exact) << strain;
+    EXPECT_GE(weakest(soft, strain), 0.7 * exact) << strain;
+  }
+  const Law stiffens = load_materials("invivo").law(Tissue::fat);
+  for (const double strain : {0.1, 0.3, 0.5}) {
+    EXPECT_LE(weakest(stiffens, strain), relative(stiffens, strain)) << strain;
+    EXPECT_GE(weakest(stiffens, strain), 0.4 * relative(stiffens, strain)) << strain;
+  }
+}
+
+// Whether the tangent of a slice under plane-strain compression is positive definite.
 bool layer_stands(const HexMesh& mesh, const MechanicsOptions& options, double width,
                   double strain) {
   const Scene scene(mesh, options);
   const Problem problem = scene.problem(Eigen::VectorXd::Zero(3L * mesh.nodes())).problem;
-  const Mat3 f = Vec3(1 / (1 - strain), 1 - strain, 1).asDiagonal();
-  const Mat3 c = f.transpose() * f;
-  State state = scene.at_rest(flatten(mesh.reference));
-  for (int node = 0; node < mesh.nodes(); ++node) {
-    state.x.segment<3>(3L * node) = f * mesh.reference[std::size_t(node)];
-  }
-  const int rows = problem.space().pressures->rows;
-  for (int e = 0; e < mesh.elements(); ++e) {
-    Stress stress;
-    law_stress(options.materials.law(mesh.tissue[std::size_t(e)]), true, c, 1, false, stress);
-    state.p[long(rows) * e] = (f * from_voigt(stress.s) * f.transpose())(0, 0);
-  }
+  const State state = squeezed(mesh, scene, problem, strain);
   SaddleMatrix matrix = problem.make_matrix();
   Forces forces;
   EXPECT_TRUE(problem.tangent(state, forces, matrix));
