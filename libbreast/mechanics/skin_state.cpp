@@ -41,7 +41,9 @@ double beneath(const HexMesh& mesh, const MaterialSet& materials, int element,
 
 template <int N>
 SkinState state_of(const HexMesh& mesh, const MaterialSet& materials,
-                   const std::vector<Vec3>& reference, const std::vector<Vec3>& deformed) {
+                   const std::vector<Vec3>& reference, const std::vector<Vec3>& deformed,
+                   const std::vector<double>& pressure) {
+  const auto presses = [&](int node) { return pressure[std::size_t(node)] > 0; };
   SkinState state;
   double total = 0;
   for (std::size_t f = 0; f < mesh.skin_faces.size(); ++f) {
@@ -58,12 +60,13 @@ SkinState state_of(const HexMesh& mesh, const MaterialSet& materials,
     total += area;
     // Rounding gives resultants of either sign in a skin at rest.
     if (!(resultant < -1e-9 * materials.law(Tissue::skin).shear_modulus())) continue;
-    const double wrinkle =
-        std::numbers::pi * -resultant /
-        beneath(mesh, materials, mesh.skin_faces[f].element, reference, deformed);
     ++state.compressed;
     state.compressed_share += area;
     state.least_resultant_N_per_m = std::min(state.least_resultant_N_per_m, 1e-3 * resultant);
+    if (!pressure.empty() && std::ranges::all_of(nodes, presses)) continue;
+    const double wrinkle =
+        std::numbers::pi * -resultant /
+        beneath(mesh, materials, mesh.skin_faces[f].element, reference, deformed);
     state.longest_wrinkle_mm = std::max(state.longest_wrinkle_mm, wrinkle);
     if (wrinkle >= 2 * std::sqrt(area)) {
       ++state.wrinkling;
@@ -80,10 +83,11 @@ SkinState state_of(const HexMesh& mesh, const MaterialSet& materials,
 }  // namespace
 
 SkinState skin_state(const HexMesh& mesh, const MaterialSet& materials,
-                     const std::vector<Vec3>& reference, const std::vector<Vec3>& deformed) {
+                     const std::vector<Vec3>& reference, const std::vector<Vec3>& deformed,
+                     const std::vector<double>& pressure) {
   if (mesh.skin_model != SkinModel::membrane) return {};
-  return mesh.order == 1 ? state_of<4>(mesh, materials, reference, deformed)
-                         : state_of<9>(mesh, materials, reference, deformed);
+  return mesh.order == 1 ? state_of<4>(mesh, materials, reference, deformed, pressure)
+                         : state_of<9>(mesh, materials, reference, deformed, pressure);
 }
 
 }  // namespace breast

@@ -85,8 +85,8 @@ void check_fields(const Scene& scene, Equilibrium& equilibrium) {
                   "report, or use --element q2p1"));
     }
   }
-  equilibrium.skin =
-      skin_state(mesh, scene.options().materials, equilibrium.reference, equilibrium.points);
+  equilibrium.skin = skin_state(mesh, scene.options().materials, equilibrium.reference,
+                                equilibrium.points, equilibrium.contact_pressure);
   if (equilibrium.skin.wrinkling > 0 && equilibrium.skin.wrinkling_share > much_wrinkling) {
     equilibrium.doubts.push_back(message(
         "the skin is compressed enough to wrinkle over two elements or more on ",

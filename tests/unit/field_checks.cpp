@@ -103,6 +103,14 @@ TEST(Skin, WrinklesWhenStiffAndThick) {
   EXPECT_EQ(state.wrinkling, 4 * 16);
   EXPECT_GT(state.longest_wrinkle_mm, 40);
   EXPECT_EQ(skin_state(mesh, set, mesh.reference, mesh.reference).compressed, 0);
+  // A plate presses on one side, and holds it flat.
+  std::vector<double> pressure(mesh.reference.size(), 0);
+  const double top = fixtures::BlockSettings{}.size.z();
+  for (std::size_t n = 0; n < pressure.size(); ++n)
+    if (mesh.reference[n].z() > top - 1e-6) pressure[n] = 1;
+  state = skin_state(mesh, set, mesh.reference, deformed, pressure);
+  EXPECT_EQ(state.compressed, 4 * 16);
+  EXPECT_EQ(state.wrinkling, 3 * 16);
   // Under a stretch of 0.8 the weakest shear modulus of a neo-Hookean tissue is 0.8² times that at rest.
   for (const Tissue tissue : {Tissue::fat, Tissue::fibroglandular})
     set.laws[std::size_t(tissue)] = {"neo_hookean", {610}};
