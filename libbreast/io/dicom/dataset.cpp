@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdio>
 
-#include "core/provenance.hpp"
+#include "core/sha256.hpp"
 #include "io/dicom/delimiters.hpp"
 
 namespace breast {

@@ -6,7 +6,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/own_file.hpp"
-#include "core/provenance.hpp"
+#include "core/sha256.hpp"
 #include "io/dicom/dataset.hpp"
 #include "io/series/segmentation.hpp"
 
