@@ -21,12 +21,6 @@ struct Frame {
   int number = 0, tissue = 0, slice = 0;
 };
 
-std::string vector_text(const Vec3& a) {
-  char text[80];
-  std::snprintf(text, sizeof text, "%.10g\\%.10g\\%.10g", a[0], a[1], a[2]);
-  return text;
-}
-
 std::string content_of(const LabelVolume& labels) {
   Sha256 hash;
   hash.update(labels.tissue.data(), labels.tissue.size());

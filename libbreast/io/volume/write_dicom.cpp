@@ -16,12 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string vector_text(const Vec3& a) {
-  char text[80];
-  std::snprintf(text, sizeof text, "%.10g\\%.10g\\%.10g", a[0], a[1], a[2]);
-  return text;
-}
-
 void add_identity(DatasetBuilder& set, int k, const std::string& description,
                   const std::string& scan) {
   set.text(0x00080005, "CS", "ISO_IR 192")
