@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Third parties, all from Debian. The mechanics needs only Eigen, SuiteSparse (CHOLMOD, METIS), BLAS,
-# HDF5 and CLI11; the image and surface stages are left out when their libraries are missing.
+# HDF5, OpenSSL and CLI11; the image and surface stages are left out when their libraries are missing.
 find_package(OpenMP REQUIRED COMPONENTS CXX)
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(HDF5 REQUIRED COMPONENTS C)
+find_package(OpenSSL REQUIRED COMPONENTS Crypto)
 if(BREAST_TESTS)
   find_package(GTest QUIET)
   if(GTest_FOUND)

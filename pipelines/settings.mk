@@ -10,9 +10,7 @@ define newline
 endef
 quoted = '$(subst ','\'',$1)'
 # $(call said,$(shell COMMAND)): what the program says; make ends with its message if it refuses.
-said = $(if $(filter 0,$(.SHELLSTATUS)),$1,$(error $(filter-out cases:,$1)$(outdated)))
-outdated = $(if $(if $(INSTALLED),,$(shell find $(SOURCES) -newer $(BIN)/cases)),; \
-  the programs are older than their sources: make -f $(PIPELINE) build)
+said = $(if $(filter 0,$(.SHELLSTATUS)),$1,$(error $(filter-out cases:,$1)))
 
 # $(shell) would end its command at a line break, before `cases` could refuse it.
 $(foreach v,$(given),$(if $(findstring $(newline),$(value $v)),$(error $v: a line break may not stand in it; give a name \

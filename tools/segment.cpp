@@ -7,6 +7,7 @@
 
 #include "cli/tool.hpp"
 #include "core/error.hpp"
+#include "core/sha256.hpp"
 #include "core/table.hpp"
 #include "core/text/lists.hpp"
 #include "io/label_file.hpp"

@@ -28,6 +28,9 @@ void declare(Tool& tool, Choices& c) {
       "surface is the same, and the lines between skin, cut and chest wall are preserved as "
       "edges; each tetrahedron takes the tissue of the hexahedron that contains its centroid. "
       "hexmesh --tetrahedra does the same in one step.");
+  tool.describe(
+      "The program needs CGAL (Debian's `libcgal-dev`), which no other program does, and is built on "
+      "demand: `cmake --preset release`, then `cmake --build build/release --target tetrahedra`.");
   tool.cite("Jamin et al. 2015, CGALmesh, ACM Trans Math Softw 41(4)");
   tool.input(c.mesh, "MESH.vtkhdf", "hexahedral mesh in any shape");
   tool.output(c.tetrahedra, "OUT.vtu",

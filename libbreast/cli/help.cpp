@@ -8,6 +8,7 @@
 
 #include "cli/declaration.hpp"
 #include "core/table.hpp"
+#include "core/text/lists.hpp"
 
 namespace breast {
 
@@ -68,12 +69,6 @@ std::string topic_title(const std::string& topic) {
   return topic.empty() ? "Options" : "Options: " + topic;
 }
 
-std::string joined(const std::vector<std::string>& parts) {
-  std::string text;
-  for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
-  return text;
-}
-
 void examples_text(std::ostringstream& out, const Declaration& tool) {
   const std::string prefix = call_prefix();
   if (!tool.examples.empty()) out << "\nExamples:\n";
@@ -97,7 +92,7 @@ std::string further(const Declaration& tool) {
   }
   if (number == 0) return "also explains the common options and the exit codes";
   return "shows " + std::to_string(number) + " further option" + (number > 1 ? "s" : "") +
-         (topics.empty() ? "" : " by topic: " + joined(topics));
+         (topics.empty() ? "" : " by topic: " + join(topics, ", "));
 }
 
 void brief_text(std::ostringstream& out, const Declaration& tool) {
@@ -109,7 +104,7 @@ void brief_text(std::ostringstream& out, const Declaration& tool) {
   list_text(out, "Options", options);
   std::vector<std::string> common;
   for (const Argument& argument : tool.common) common.push_back(usage(argument));
-  out << "\n" << wrap("Common options: " + joined(common), 2) << "\n";
+  out << "\n" << wrap("Common options: " + join(common, ", "), 2) << "\n";
   examples_text(out, tool);
   out << "\n" << wrap(call_prefix() + tool.name + " --help-all " + further(tool), 2) << "\n";
 }

@@ -17,7 +17,6 @@
 #include "core/files_written.hpp"
 #include "core/own_file.hpp"
 #include "core/parallel.hpp"
-#include "core/text/one_line.hpp"
 
 namespace breast {
 
@@ -27,11 +26,12 @@ namespace {
 [[maybe_unused]] const bool prepared = has_preflight() && have_last_words();
 
 // Text from a file that a message quotes must not contain control sequences for the terminal.
-std::string printable_line(const std::string& text) {
-  std::string line = one_line(text);
-  std::replace_if(
-      line.begin(), line.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');
-  return line;
+std::string printable_line(std::string text) {
+  for (char& c : text) {
+    if (c == '\n' || c == '\r' || c == '\t') c = ' ';
+    if (static_cast<unsigned char>(c) < ' ' || c == 0x7f) c = '?';
+  }
+  return text;
 }
 
 // One number of threads for OpenMP, ITK and VTK; the latter two read their environment late.

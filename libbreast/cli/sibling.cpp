@@ -55,8 +55,10 @@ int run_silently(std::vector<std::string> words) {
 
 void require_sibling(const std::string& tool, const std::string& what) {
   if (access(sibling(tool).c_str(), X_OK) == 0) return;
-  throw input_error(what, " needs the program ", sibling(tool).string(),
-                    ", which is not built: cmake --build build/release --target ", tool);
+  throw input_error(
+      what, " needs the program ", sibling(tool).string(),
+      ", which is not built: cmake --preset release && cmake --build build/release --target ",
+      tool);
 }
 
 Report run_sibling(const std::string& tool, const std::vector<std::string>& arguments) {

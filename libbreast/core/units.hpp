@@ -11,7 +11,6 @@
 namespace breast {
 
 inline constexpr double gravity_mm_s2 = 9810.0;
-inline constexpr double density_g_mm3 = 1.0e-3;
 inline constexpr double micronewton_per_newton = 1.0e6;
 inline constexpr double pascal_per_kilopascal = 1.0e3;
 inline constexpr double mm3_per_ml = 1.0e3;

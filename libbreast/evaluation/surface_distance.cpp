@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "evaluation/triangle_tree.hpp"
+#include "surface/triangle_tree.hpp"
 
 namespace breast {
 

@@ -7,6 +7,7 @@
 
 #include "core/parallel.hpp"
 #include "evaluation/overlap.hpp"
+#include "image/nearest_voxel.hpp"
 
 namespace breast {
 
@@ -16,22 +17,14 @@ constexpr double lattice = 2, step = 0.2;  // mm
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Nearest label at a patient point; air outside the volume.
-class Sampler {
- public:
-  explicit Sampler(const LabelVolume& labels)
-      : labels_(labels),
-        to_index_(labels.grid.spacing.cwiseInverse().asDiagonal() *
-                  labels.grid.direction.inverse()) {}
+struct Sampler {
+  explicit Sampler(const LabelVolume& of) : labels(of), nearest(of.grid) {}
   Tissue at(const Vec3& p) const {
-    const Vec3 index = to_index_ * (p - labels_.grid.origin);
-    const int i = int(std::lround(index[0])), j = int(std::lround(index[1])),
-              k = int(std::lround(index[2]));
-    return labels_.grid.contains(i, j, k) ? labels_.at(i, j, k) : Tissue::air;
+    const std::ptrdiff_t voxel = nearest.at(p);
+    return voxel < 0 ? Tissue::air : Tissue(labels.tissue[std::size_t(voxel)]);
   }
-
- private:
-  const LabelVolume& labels_;
-  Mat3 to_index_;
+  const LabelVolume& labels;
+  NearestVoxel nearest;
 };
 
 /// Patient box of the breast's voxels.

@@ -5,10 +5,11 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "fit/closest_point.hpp"
-#include "fit/distance.hpp"
 #include "fit/rim.hpp"
 #include "fit/skin_sheet.hpp"
+#include "surface/triangle_tree.hpp"
 
 namespace breast {
 
@@ -78,8 +79,13 @@ void measure_fit(const DiscSurface& surface, const SheetData& data, const Breast
       const Vec2 st(double(i) / n, double(j) / n);
       if (inside(st)) samples.push_back(geometry.skin.position(st));
     }
-  report.sheet_to_skin =
-      summarise(distances_to_triangles(surface.points, surface.triangles, samples));
+  TriMesh skin;
+  skin.points = surface.points, skin.triangles = surface.triangles;
+  const TriangleTree tree(skin);
+  std::vector<double> distances(samples.size());
+#pragma omp parallel for num_threads(threads()) schedule(dynamic, 64)
+  for (std::size_t k = 0; k < samples.size(); ++k) distances[k] = tree.distance(samples[k]);
+  report.sheet_to_skin = summarise(distances);
 }
 
 void find_doubts(const BreastRegion& region, const BreastGeometry& geometry, FitReport& report) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "core/error.hpp"
+#include "core/statistics/percentile.hpp"
 
 namespace breast {
 
@@ -59,12 +60,6 @@ Raster averaged(const MammogramScan& scan, const ImageField& field) {
   return raster;
 }
 
-float at_rank(std::vector<float> values, double rank) {
-  const auto place = values.begin() + std::ptrdiff_t(rank * double(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
-
 // Grey above which a pixel is not air, from the anterior border, which shows air.
 float threshold_of(const Raster& raster, bool anterior_is_right) {
   const int strip = std::min(raster.width, std::max(3, raster.width / 30));
@@ -74,10 +69,10 @@ float threshold_of(const Raster& raster, bool anterior_is_right) {
       air.push_back(raster.grey[raster.offset(anterior_is_right ? raster.width - 1 - k : k, y)]);
     }
   }
-  const float middle = at_rank(air, 0.5);
+  const auto middle = float(percentile(air, 0.5));
   for (float& value : air) value = std::abs(value - middle);
-  const float noise = 1.4826f * at_rank(std::move(air), 0.5);
-  const float bright = at_rank(raster.grey, 0.99);
+  const float noise = 1.4826f * float(percentile(std::move(air), 0.5));
+  const auto bright = float(percentile(raster.grey, 0.99));
   return middle + std::max(float(level) * (bright - middle), float(noise_levels) * noise);
 }
 

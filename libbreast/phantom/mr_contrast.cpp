@@ -8,6 +8,7 @@
 
 #include "core/elementary.hpp"
 #include "core/error.hpp"
+#include "core/statistics/percentile.hpp"
 
 namespace breast {
 
@@ -95,9 +96,7 @@ Volume<float> failing_region(const Volume<float>& body, double share, std::uint6
         if (body.at(i, j, k) > 0) distances.push_back(weight.at(i, j, k));
       }
   if (distances.empty()) return Volume<float>(body.grid);
-  const auto place = distances.begin() + std::ptrdiff_t(share * double(distances.size() - 1));
-  std::nth_element(distances.begin(), place, distances.end());
-  const double radius = *place;
+  const double radius = percentile(std::move(distances), share);
   for (float& value : weight.voxels)
     value = float(1 / (1 + elementary::exp((value - radius) / (0.5 * width))));
   return weight;

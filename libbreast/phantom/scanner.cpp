@@ -7,6 +7,7 @@
 #include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/statistics/percentile.hpp"
 #include "phantom/random.hpp"
 
 namespace breast {
@@ -46,12 +47,6 @@ double raw_sensitivity(const std::vector<CoilElement>& coil, const Vec3& x) {
   return sum;
 }
 
-float percentile(std::vector<float> values, double fraction) {
-  const auto at = values.begin() + std::ptrdiff_t(fraction * double(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
 }  // namespace
 
 Volume<float> coil_sensitivity(const PhantomImage& image, double bias, std::uint64_t seed) {
@@ -71,7 +66,7 @@ Volume<float> coil_sensitivity(const PhantomImage& image, double bias, std::uint
     if (image.side[n] > 0 && image.tissue[n] == std::uint8_t(Tissue::fat))
       breast.push_back(field.voxels[n]);
   if (breast.empty()) throw input_error("coil sensitivity: the image holds no breast");
-  const double spread = percentile(breast, 0.99) - percentile(breast, 0.01);
+  const double spread = float(percentile(breast, 0.99)) - float(percentile(breast, 0.01));
   const double power = elementary::log(bias) / spread, middle = percentile(breast, 0.5);
 #pragma omp parallel for schedule(static) num_threads(threads())
   for (std::size_t n = 0; n < grid.voxels(); ++n)

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/statistics/percentile.hpp"
+
 namespace breast {
 
 namespace {
@@ -19,13 +21,6 @@ constexpr double thin_exponent = 0.2;
 // Half width, in pixels, over which the border of the unknown part is softened.
 constexpr int soft_border = 2;
 
-float at_rank(std::vector<float> values, double rank, float fallback) {
-  if (values.empty()) return fallback;
-  const auto place = values.begin() + std::ptrdiff_t(rank * double(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
-
 // Between the plates the thickness is constant except at the rounded rim of the breast, which is
 // the smaller part of the image.
 double plate_thickness(const Mammogram& image) {
@@ -36,7 +31,7 @@ double plate_thickness(const Mammogram& image) {
     all.push_back(image.thickness[i]);
     if (int(i % image.width) >= first) between.push_back(image.thickness[i]);
   }
-  return at_rank(between.empty() ? all : between, 0.75, 1);
+  return percentile(between.empty() ? all : between, 0.75, 1);
 }
 
 // White is the densest tissue of the breast itself, in both views, so that the same tissue looks alike in them; muscle, which fills the
@@ -48,7 +43,7 @@ double bright_end(const Mammogram& image, const std::vector<float>& shown) {
     all.push_back(shown[i]);
     if (image.through_back[i] == 0) breast.push_back(shown[i]);
   }
-  return at_rank(breast.empty() ? all : breast, 0.998, 1);
+  return percentile(breast.empty() ? all : breast, 0.998, 1);
 }
 
 /// Averages over the neighbours of pixels that have both known and unknown neighbours, so that the

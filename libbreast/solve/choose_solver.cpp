@@ -32,7 +32,6 @@ SolverCost predict_cost(double unknowns, int threads) {
   SolverCost cost;
   cost.factor_gb = 0.1 * std::pow(size, 1.45);
   cost.factor_seconds = 0.37 * std::pow(size, 1.67) / threads;
-  cost.cycle_gb = 0.06 * size;
   cost.cycle_seconds = 0.23 * std::pow(size, 1.25) / threads;
   return cost;
 }

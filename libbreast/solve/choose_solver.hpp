@@ -10,7 +10,7 @@ namespace breast {
 /// Expected cost of a Newton step with either solver on this machine.
 struct SolverCost {
   double factor_gb = 0, factor_seconds = 0;  ///< direct: memory of the factor and fronts, one step
-  double cycle_gb = 0, cycle_seconds = 0;    ///< multigrid
+  double cycle_seconds = 0;                  ///< multigrid
 };
 /// For a mesh of `unknowns` displacements, on `threads` threads.
 SolverCost predict_cost(double unknowns, int threads);

@@ -18,6 +18,11 @@ FACE_CORNERS = np.array([[0, 4, 7, 3], [1, 2, 6, 5], [0, 1, 5, 4], [3, 7, 6, 2],
 """Corner nodes of local face 0 (-ξ), 1 (+ξ), 2 (-η), 3 (+η), 4 (-ζ), 5 (+ζ); their right-hand normal points outwards."""
 
 
+def face_corners(hexahedra: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """The nodes (F, 4) at the corners of faces (F, 2): element and local face."""
+    return hexahedra[faces[:, :1], FACE_CORNERS[faces[:, 1]]]
+
+
 def order_of(nodes_per_element: int) -> int:
     """1 of 8 nodes, 2 of 27."""
     return {8: 1, 27: 2}[nodes_per_element]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .elements import FACE_CORNERS
+from .elements import face_corners
 
 
 def faces_in_plane(nodes: np.ndarray, faces: np.ndarray, origin: np.ndarray, normal: np.ndarray) -> np.ndarray:
@@ -16,7 +16,7 @@ def faces_in_plane(nodes: np.ndarray, faces: np.ndarray, origin: np.ndarray, nor
         origin: (3) a point of the plane, mm.
         normal: (3) its normal, of any length.
     """
-    return quads_in_plane(nodes[faces[:, :1], FACE_CORNERS[faces[:, 1]]], origin, normal)
+    return quads_in_plane(face_corners(nodes, faces), origin, normal)
 
 
 def quads_in_plane(corners: np.ndarray, origin: np.ndarray, normal: np.ndarray) -> np.ndarray:

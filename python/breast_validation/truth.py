@@ -2,11 +2,11 @@
 """The chain against the truth of a phantom: errors, what remains of them when a stage is replaced by the truth, and its calibration."""
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 from breast.study.findings import LANDMARKS, moved_in, truth_moves
 from breast.study.kinds import Request, kind
-from breast.study.shapes import distance
 from breast.study.stage_report import StageReport, failure_of, variant_of
 from breast.study.table import NO_VALUE, Row, Table, fixed, number_of, one_line, or_dash, read_table, table_if_any
 
@@ -117,7 +117,7 @@ def calibration_table(run: Path, truth: Path, side: str, landmarks: Table) -> Ta
     stress_free = [NO_VALUE, NO_VALUE]
     for r in range(len(landmarks.rows)):
         if landmarks.cell(r, "side") == side and landmarks.cell(r, "landmark") in LANDMARKS:
-            moved = distance(landmarks.point(r, "stress_free_"), landmarks.point(r, "prone_"))
+            moved = math.dist(landmarks.point(r, "stress_free_"), landmarks.point(r, "prone_"))
             stress_free[LANDMARKS.index(landmarks.cell(r, "landmark"))] = fixed(moved, 2)
     table.rows.append(["the phantom's truth", *truth_moves(StageReport.read(truth), side), *stress_free, ""])
     return table

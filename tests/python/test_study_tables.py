@@ -5,7 +5,7 @@ from pathlib import Path
 
 import study_files
 from breast.errors import BreastError, Failed
-from breast.study.cohort_pages import mean_and_deviation
+from breast.study.cohort_pages import distribution
 from breast.study.cost import Point, accuracy_row, cost_table
 from breast_validation.draws import coverage, coverage_table, identification_table, quantile, read_band_rows, stability_table
 from breast.study.outcomes import outcomes_table
@@ -335,5 +335,8 @@ class Verify(InFolder):
 
 class Distributions(InFolder):
     def test_mean_and_deviation(self):
-        self.assertEqual(mean_and_deviation([3, 1, 2]), (2, 1))
-        self.assertEqual(mean_and_deviation([0.1, 0.1, 0.1])[1], 0)
+        women = table_of("quantity\tmean\tsd\n")
+        for cells, expected in (("3 1 2", ["3", "2", "1", "1", "3"]), ("0.1 0.1 0.1", ["3", "0.1", "0", "0.1", "0.1"]),
+                                ("7", ["1", "7", "0", "7", "7"])):
+            values = table_of("x\ty\n" + "".join(f"{cell}\t0\n" for cell in cells.split()))
+            self.assertEqual(distribution(values, "x", women)["cells"], expected)

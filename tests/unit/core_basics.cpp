@@ -17,6 +17,7 @@
 #include "core/own_file.hpp"
 #include "core/provenance.hpp"
 #include "core/report.hpp"
+#include "core/sha256.hpp"
 #include "core/table.hpp"
 #include "core/types.hpp"
 #include "core/units.hpp"

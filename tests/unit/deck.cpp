@@ -137,7 +137,8 @@ TEST_P(DeckElements, CalculixDeckReadsBackAsTheScene) {
       }
     }
   }
-  EXPECT_NEAR(weight.y() / (density_g_mm3 * gravity_mm_s2 * volume), 1, 1e-9);
+  constexpr double density = 1e-3;  // g/mm3
+  EXPECT_NEAR(weight.y() / (density * gravity_mm_s2 * volume), 1, 1e-9);
   EXPECT_NEAR(weight.x(), 0, 1e-9 * weight.y());
 }
 

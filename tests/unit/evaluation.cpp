@@ -12,13 +12,13 @@
 #include "evaluation/partial_volume.hpp"
 #include "evaluation/shape_difference.hpp"
 #include "evaluation/surface_distance.hpp"
-#include "evaluation/triangle_tree.hpp"
 #include "evaluation/truth_table.hpp"
 #include "evaluation/wall_distance.hpp"
 #include "fixtures/analytic_breast.hpp"
 #include "fixtures/analytic_mesh.hpp"
 #include "mesh/locate.hpp"
 #include "meshing/body_mesh.hpp"
+#include "surface/triangle_tree.hpp"
 
 namespace breast {
 namespace {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <numbers>
 
-#include "fit/distance.hpp"
 #include "fit/rim.hpp"
 #include "surface/rim_border.hpp"
 
@@ -48,16 +47,6 @@ TEST(RimCurve, InsideAgreesWithTheCircle) {
       EXPECT_EQ(inside_star(curve, {0.45, 0.52}, st), r < 0.3);
     }
   }
-}
-
-TEST(Distance, ToOneTriangle) {
-  const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  const auto d = distances_to_triangles(points, {{0, 1, 2}},
-                                        {{0.2, 0.2, 3}, {-1, 0, 0}, {1, 1, 0}, {2, 0, 1}});
-  EXPECT_NEAR(d[0], 3, 1e-12);
-  EXPECT_NEAR(d[1], 1, 1e-12);
-  EXPECT_NEAR(d[2], std::sqrt(0.5), 1e-12);
-  EXPECT_NEAR(d[3], std::sqrt(2.0), 1e-12);
 }
 
 TEST(RimBorder, IsTheQuarterOfTheRimsBox) {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdio>
 
-#include "core/provenance.hpp"
+#include "core/sha256.hpp"
 #include "io/dicom/delimiters.hpp"
 
 namespace breast {
@@ -140,6 +140,12 @@ std::string uid_from(const std::string& text) {
   Sha256 hash;
   hash.update(text);
   return "2.25." + std::to_string(std::stoull(hash.hex().substr(0, 15), nullptr, 16) + 1);
+}
+
+std::string vector_text(const Vec3& a) {
+  char text[80];
+  std::snprintf(text, sizeof text, "%.10g\\%.10g\\%.10g", a[0], a[1], a[2]);
+  return text;
 }
 
 }  // namespace breast

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/types.hpp"
+
 namespace breast {
 
 /// Builds a data set in explicit little endian. `tag` has the form 0xGGGGEEEE and `vr` is the two
@@ -49,5 +51,8 @@ DatasetBuilder code_item(const std::string& value, const std::string& scheme,
 /// A UID derived from text; the same text gives the same UID ("2.25." is the root of such numbers,
 /// PS3.5 B.2).
 std::string uid_from(const std::string& text);
+
+/// The three numbers of a DS, as of a place or a direction.
+std::string vector_text(const Vec3& a);
 
 }  // namespace breast

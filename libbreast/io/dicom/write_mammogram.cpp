@@ -4,6 +4,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/sha256.hpp"
 #include "io/dicom/simulated_study.hpp"
 #include "io/mammogram_dicom.hpp"
 #include "projection/display.hpp"

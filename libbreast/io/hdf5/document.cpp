@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "core/parallel.hpp"
-#include "core/provenance.hpp"
+#include "core/sha256.hpp"
 
 namespace breast {
 

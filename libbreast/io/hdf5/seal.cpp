@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "core/error.hpp"
-#include "core/provenance.hpp"
+#include "core/sha256.hpp"
 
 namespace breast {
 

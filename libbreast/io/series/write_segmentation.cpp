@@ -6,7 +6,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/own_file.hpp"
-#include "core/provenance.hpp"
+#include "core/sha256.hpp"
 #include "io/dicom/dataset.hpp"
 #include "io/series/segmentation.hpp"
 
@@ -20,12 +20,6 @@ namespace fs = std::filesystem;
 struct Frame {
   int number = 0, tissue = 0, slice = 0;
 };
-
-std::string vector_text(const Vec3& a) {
-  char text[80];
-  std::snprintf(text, sizeof text, "%.10g\\%.10g\\%.10g", a[0], a[1], a[2]);
-  return text;
-}
 
 std::string content_of(const LabelVolume& labels) {
   Sha256 hash;

@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/guarded_child.hpp"
-#include "core/provenance.hpp"
+#include "core/sha256.hpp"
 #include "core/temporary_folder.hpp"
 #include "core/text/lower_case.hpp"
 #include "io/series/choice.hpp"

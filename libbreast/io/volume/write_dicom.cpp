@@ -6,7 +6,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/own_file.hpp"
-#include "core/provenance.hpp"
+#include "core/sha256.hpp"
 #include "io/dicom/simulated_study.hpp"
 #include "io/volume_file.hpp"
 
@@ -15,12 +15,6 @@ namespace breast {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string vector_text(const Vec3& a) {
-  char text[80];
-  std::snprintf(text, sizeof text, "%.10g\\%.10g\\%.10g", a[0], a[1], a[2]);
-  return text;
-}
 
 void add_identity(DatasetBuilder& set, int k, const std::string& description,
                   const std::string& scan) {

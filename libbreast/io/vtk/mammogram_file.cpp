@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/sha256.hpp"
 #include "io/vtk/xml_file.hpp"
 #include "projection/display.hpp"
 

@@ -11,7 +11,7 @@
 #include <vtkPolyData.h>
 
 #include "core/error.hpp"
-#include "core/provenance.hpp"
+#include "core/sha256.hpp"
 #include "io/vtk/xml_file.hpp"
 
 namespace breast {

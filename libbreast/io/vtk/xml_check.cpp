@@ -11,7 +11,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "core/provenance.hpp"
+#include "core/sha256.hpp"
 #include "io/vtk/array_check.hpp"
 
 namespace breast {

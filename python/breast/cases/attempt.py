@@ -9,11 +9,8 @@ from pathlib import Path
 from ..command.child import run_child
 from ..errors import Failed
 from ..output import write_text
+from ..study.files import exists
 from .stage import NOT_CONVERGED
-
-
-def _has_something(file: Path) -> bool:
-    return file.is_file() and file.stat().st_size > 0
 
 
 def attempt(report: Path, inputs: Sequence[Path], command: Sequence[str]) -> None:
@@ -31,7 +28,7 @@ def attempt(report: Path, inputs: Sequence[Path], command: Sequence[str]) -> Non
         return
     code = run_child(command)
     # A program that is not part of libbreast may write no report.
-    if code == 0 and not _has_something(report):
+    if code == 0 and not exists(report):
         write_text(report, '{\n  "status": "ok"\n}\n')
-    if code != 0 and not (code == NOT_CONVERGED and _has_something(report)):
+    if code != 0 and not (code == NOT_CONVERGED and exists(report)):
         raise Failed(f"{command[0]} ended with exit code {code}")

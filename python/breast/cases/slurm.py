@@ -14,6 +14,7 @@ from pathlib import Path
 from ..command.child import capture_child, run_child
 from ..errors import BreastError, Failed
 from ..output import write_text
+from ..study.table import table_if_any
 from ..text_table import number_in, read_table, read_text
 from .case_file import setting_in
 from .case_run import is_done, run_case
@@ -47,7 +48,7 @@ class SlurmRequest:
     options: str = ""
     cores: int = 1
     resume: bool = False
-    elements: float = 16
+    elements: int = 16
     element: str = ""
 
 
@@ -79,9 +80,7 @@ def dearest_case(request: SlurmRequest, cases: Sequence[CohortEntry]) -> CaseCos
         size = max(size, min(number_in(setting_in(text, "ELEMENTS")) or 0, _MOST_ELEMENTS))
         if setting_in(text, "ELEMENT") == "q2p1":
             element = "q2p1"
-    measured = request.runs / "cost.tsv"
-    known = measured.is_file() and measured.stat().st_size > 0
-    return case_cost(read_table(measured) if known else None, read_table(request.cost), request.cores, element, size)
+    return case_cost(table_if_any(request.runs / "cost.tsv"), read_table(request.cost), request.cores, element, size)
 
 
 def _job_script(request: SlurmRequest, folder: Path, name: str, time: object, memory: object, output: str, command: str,

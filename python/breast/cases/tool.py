@@ -194,17 +194,13 @@ def _declared() -> Tool:
     tool.text("--account", "NAME", "account to be charged")
     tool.text("--time", "TIME", "time limit of a case, in minutes or as sbatch accepts it (default: from the measured cost)")
     tool.text("--memory", "MB", "memory of a case (default: from the measured cost)")
-    tool.integer("--cores", "N", "cores of a case", 1, 1, 1024)
+    tool.integer("--cores", "cores of a case", 1, 1, 1024)
     tool.text("--options", "OPTIONS", "further options of sbatch, passed on unchanged")
     tool.flag("--resume", "submit only the cases that are missing or out of date")
-    tool.number("--elements", "N", "number of elements along an edge (ELEMENTS) of the cases whose files do not ask for more", 16)
+    tool.integer("--elements", "number of elements along an edge (ELEMENTS) of the cases whose files do not ask for more", 16, 4, 64)
     tool.text("--element", "NAME", "element (ELEMENT) of every case, q1p0 or q2p1")
     tool.text("--cost", "FILE.tsv", "table of the cost of a case, used until cases of this cohort have been measured",
               "pipelines/cohort-cost.tsv")
-    tool.topic("stage", ("--prints", "--keep", "--spared", "--of"))
-    tool.topic("Slurm", ("--partition", "--account", "--time", "--memory", "--cores", "--options", "--resume", "--elements", "--element",
-                         "--cost"))
-    tool.basic(("--partition", "--account", "--time", "--memory", "--cores", "--options", "--resume"))
     tool.example("cases list patients pipelines", "list the cases of a cohort")
     tool.example("cases record runs/scan-left left scan.nrrd", "record that this folder was made from this scan")
     return tool

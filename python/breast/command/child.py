@@ -7,7 +7,8 @@ import os
 import select
 import signal
 import subprocess
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import IO, NamedTuple
 
 from ..errors import Failed
@@ -45,18 +46,24 @@ def _code(status: int) -> int:
     return status if status >= 0 else 128 - status
 
 
+@contextmanager
+def _interrupts_ignored() -> Iterator[None]:
+    before = [(number, signal.signal(number, signal.SIG_IGN)) for number in (signal.SIGINT, signal.SIGQUIT)]
+    try:
+        yield
+    finally:
+        for number, handler in before:
+            signal.signal(number, handler)
+
+
 def run_child(words: Sequence[str], out: int | IO | None = None, err: int | IO | None = None) -> int:
     """Runs the program words[0], which is searched for in PATH, with its output to the files out and err (None: those of this process).
 
     The child shares this process's terminal and alone receives its interrupts, and ends when this process does. Returns its exit
     code, or 128 plus the number of the signal that ended it. Raises Failed if it cannot be started.
     """
-    before = [(number, signal.signal(number, signal.SIG_IGN)) for number in (signal.SIGINT, signal.SIGQUIT)]
-    try:
+    with _interrupts_ignored():
         return _code(_start(words, out, err).wait())
-    finally:
-        for number, handler in before:
-            signal.signal(number, handler)
 
 
 def capture_child(words: Sequence[str]) -> Captured:
@@ -69,8 +76,7 @@ def capture_child(words: Sequence[str]) -> Captured:
 def follow_child(words: Sequence[str], say: Callable[[str], None], tick: Callable[[], None], out: IO | None = None) -> int:
     """The same, with every line of the messages, and of the output if it does not go to the file `out`, given to `say`; `tick` is called
     about once a second meanwhile."""
-    before = [(number, signal.signal(number, signal.SIG_IGN)) for number in (signal.SIGINT, signal.SIGQUIT)]
-    try:
+    with _interrupts_ignored():
         child = _start(words, out or subprocess.PIPE, subprocess.PIPE if out else subprocess.STDOUT)
         said, rest = child.stderr if out else child.stdout, b""
         while True:
@@ -83,6 +89,3 @@ def follow_child(words: Sequence[str], say: Callable[[str], None], tick: Callabl
                 say(os.fsdecode(line))
             if not piece:
                 return _code(child.wait())
-    finally:
-        for number, handler in before:
-            signal.signal(number, handler)

@@ -96,20 +96,20 @@ def name_for_make(given: str, links: Path) -> str:
     return str(link)
 
 
-def folder_for_make(folder: str, option: str) -> str:
+def folder_for_make(folder: str) -> str:
     """A name of a folder of results that make can handle; the folder is created and must be writable.
 
-    Raises BreastError, naming the option, if there is no such name.
+    Raises BreastError, naming the option --runs, if there is no such name.
     """
     whole = os.path.realpath(folder)
     name = next((way for way in _ways(folder, whole) if plain_for_make(way) and way != "."), "")
     if not name:
-        raise BreastError(f"{option} '{folder}': make cannot write to a folder with such a name; start from the folder above it, or "
+        raise BreastError(f"--runs '{folder}': make cannot write to a folder with such a name; start from the folder above it, or "
                           "give a name without blanks, quotes and brackets")
     try:
         os.makedirs(name, exist_ok=True)
     except OSError:
-        raise BreastError(f"{option} '{folder}': is not a folder and cannot be created") from None
+        raise BreastError(f"--runs '{folder}': is not a folder and cannot be created") from None
     # Tested by writing rather than by permissions, because root has all permissions and still cannot write to /proc.
     links = Path(name) / ".names"
     try:
@@ -117,5 +117,5 @@ def folder_for_make(folder: str, option: str) -> str:
             links.mkdir()
             links.rmdir()
     except OSError:
-        raise BreastError(f"{option} '{folder}': is not writable") from None
+        raise BreastError(f"--runs '{folder}': is not writable") from None
     return name

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from ..errors import BreastError
 from ..text_table import parse_number
-from .declaration import Argument, Declaration, number_text, synopsis
+from .declaration import Argument, Declaration, synopsis
 from .nearest import nearest
 
 
@@ -52,12 +52,12 @@ def tokenize(tool: Declaration, words: Sequence[str]) -> Tokens:
 def check_value(argument: Argument, value: str) -> None:
     """Raises BreastError if the value is not of the argument's kind or outside its bounds."""
     label = argument.label
-    if argument.kind in ("number", "integer"):
+    if argument.kind == "integer":
         number = parse_number(value, label)
-        if argument.kind == "integer" and number != int(number):
+        if number != int(number):
             raise BreastError(f"{label}: '{value}' is not a whole number")
         if not argument.low <= number <= argument.high:
-            raise BreastError(f"{label} {number_text(number)}: must be {argument.bounds()}")
+            raise BreastError(f"{label} {number:.15g}: must be {argument.bounds()}")
     if argument.kind == "choice" and value not in argument.choices:
         near = nearest(value, argument.choices)
         raise BreastError(f"{label}: '{value}' is none of {', '.join(argument.choices)}" +

@@ -121,7 +121,7 @@ def setting_help(installation: Installation, name: str) -> str:
 
 def asked_of_make(installation: Installation, r: PipelineRequest) -> tuple[list[str], str, str]:
     """The words that make is called with, without targets; the folder of the results; and the plan. Raises BreastError if make refuses."""
-    make = ["make", "-f", _make_file(installation), *settings_for_make(installation, r, folder_for_make(r.runs, "--runs"))]
+    make = ["make", "-f", _make_file(installation), *settings_for_make(installation, r, folder_for_make(r.runs))]
     return make, _ask([*make, "-s", "where"]).removesuffix("\n"), _ask([*make, "-n", *r.target.split()])
 
 

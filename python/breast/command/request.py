@@ -42,7 +42,7 @@ class PipelineRequest:
 
 def _options(d: Declaration, jobs: int, jobs_help: str) -> None:
     d.text("--runs", "DIR", "folder in which every run has a folder of its own; it is created if it does not exist", "runs")
-    d.integer("-j,--jobs", "N", jobs_help, jobs, 1, 64)
+    d.integer("-j,--jobs", jobs_help, jobs, 1, 64)
     d.flag("--dry-run", "print the commands without running them")
 
 

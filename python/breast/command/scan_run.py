@@ -67,7 +67,7 @@ def _requests(installation: Installation, r: PipelineRequest, assumed: list[str]
         if series and side in series.taken:
             assumed.append(f"{side}: {series.taken[side]} (another: SERIES=N, as numbered by `breast scan '{r.scan}' --list`)")
         if series and side in series.fat:
-            folder = name_for_make(r.scan, os.path.join(folder_for_make(r.runs, "--runs"), ".names"))
+            folder = name_for_make(r.scan, os.path.join(folder_for_make(r.runs), ".names"))
             settings.update(FAT=folder, SEGMENT_OPTIONS=f"--fat-series {series.fat[side]}")
             assumed.append(f"{side}: series {series.fat[side]} is the fat image of that water image (another: FAT=FILE)")
         requests[side] = replace(r, side=side, settings=settings)

@@ -3,7 +3,7 @@
 
     tool = Tool("cases", "reading and checking of cases")
     tool.word("KIND", "action")
-    tool.integer("--cores", "N", "cores of a case", 1, 1, 1024)
+    tool.integer("--cores", "cores of a case", 1, 1, 1024)
     tool.example("cases list patients", "list the cases of a cohort")
     sys.exit(tool.main(lambda run: run.print(run.args.kind)))
 
@@ -54,7 +54,7 @@ class Tool(Declaration):
         super().__init__(name, summary)
         self._rules: list[Callable[[], None]] = []
         self.output_file("--report", "FILE.json", "write a machine-readable report, also in case of failure")
-        self.integer("--threads", "N", "number of threads", len(os.sched_getaffinity(0)), 1, 1024).default_text = "all cores"
+        self.integer("--threads", "number of threads", len(os.sched_getaffinity(0)), 1, 1024).default_text = "all cores"
         self.flag("--quiet", "print no progress and no warnings on stderr")
         self.flag("--help", "print a short help")
         self.flag("--help-all", "print the whole description and all options by topic")

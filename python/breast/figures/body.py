@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from ..elements import FACE_CORNERS, LATTICE, boundary_faces, evaluate, order_of
+from ..elements import FACE_CORNERS, LATTICE, boundary_faces, evaluate, face_corners, order_of
 from ..errors import BreastError
 from ..records import Plate
 from ..state import TISSUES, State
@@ -66,7 +66,7 @@ def plate_view(state: State) -> Camera:
 def face_facets(state: State, nodal: np.ndarray, faces: np.ndarray) -> Facets:
     """Faces (F, 2) in a nodal field (N, 3); one of 9 nodes becomes four quadrilaterals."""
     if state.hexahedra.shape[1] == 8:
-        return Facets(nodal, state.hexahedra[faces[:, :1], FACE_CORNERS[faces[:, 1]]])
+        return Facets(nodal, face_corners(state.hexahedra, faces))
     nine = state.hexahedra[faces[:, :1], _FACE_NODES[faces[:, 1]]]
     return Facets(nodal, nine[:, _QUARTERS].reshape(-1, 4))
 

@@ -6,7 +6,7 @@ import re
 
 import numpy as np
 
-from ..elements import FACE_CORNERS
+from ..elements import face_corners
 from ..state import TISSUES, State
 from .body import inner_faces
 
@@ -40,5 +40,4 @@ def _thickness(state: State) -> float:
 def front_of_muscle(state: State) -> np.ndarray:
     """The faces (F, 2) between the layer of muscle and the breast before it: the chest wall of the scan."""
     faces = inner_faces(state, "muscle")
-    corners = state.hexahedra[faces[:, :1], FACE_CORNERS[faces[:, 1]]] if len(faces) else np.zeros((0, 4), int)
-    return faces[~np.isin(corners, state.node_sets["pectoral"]).any(1)]
+    return faces[~np.isin(face_corners(state.hexahedra, faces), state.node_sets["pectoral"]).any(1)]

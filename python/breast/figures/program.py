@@ -29,16 +29,16 @@ def main() -> int:
     for name, figure in FIGURES.items():
         tool.describe(f"{name}: {figure.summary}.")
     tool.cite("Pathmanathan et al. 2008, IEEE Trans Biomed Eng 55(10), Figs 4 to 7")
-    tool.inputs("FILE", "meshes (.vtkhdf), mammograms (.vti), points or curves (.vtp), a table (.tsv); all of one breast, except "
-                        "for outlines")
+    tool.words("FILE", "meshes (.vtkhdf), mammograms (.vti), points or curves (.vtp), a table (.tsv); all of one breast, except "
+                       "for outlines", "input")
     tool.input_file("--scan", "MR", "MR scan behind the contours of slices and summary (.nrrd, .nii, .nii.gz, .mha or a DICOM "
                                     "folder)")
-    tool.integer("--series", "N", "series of a DICOM folder (0: the only one)", 0, 0, 100000)
+    tool.integer("--series", "series of a DICOM folder (0: the only one)", 0, 0, 100000)
     tool.input_file("--labels", "LABELS.vtkhdf", "segmentation of that scan (segment)")
     tool.choice("--figure", tuple(FIGURES), "figure to draw", "mesh")
     tool.output_file("-o,--output", "OUT.png", "the picture")
-    tool.output_folder("--all", "FOLDER", "instead of --figure and --output: all pictures of a run that its files, given with the "
-                                          "names they have in a run, allow; as FOLDER/NAME.png")
+    tool.output_folder("--all", "instead of --figure and --output: all pictures of a run that its files, given with the names they have in "
+                                "a run, allow; as FOLDER/NAME.png")
     tool.text("--only", "NAME,...", "with --all: these pictures alone, of " + ", ".join(p.name for p in PICTURES))
     tool.choice("--accept-other", ("model",), "accept files that otherwise are refused because they do not belong "
                                               "together (docs/pairs.md). model: FILE.vti and FILE.vtp, of different models")

@@ -19,11 +19,11 @@ from .outlines import joined
 from .silhouette import contours, gaussian
 
 _MARGIN_MM = 12
-_IN_PLANE_MM = 3  # a landmark farther from the plane is not marked in it: beside a nipple, which is some 10 mm wide, it would float in air
+IN_PLANE_MM = 3  # a landmark farther from the plane is not marked in it: beside a nipple, which is some 10 mm wide, it would float in air
 _RASTER_MM = 0.6
 _SMOOTHING_MM, _SMOOTHING_VOXELS = 0.9, 0.6  # so that contours do not follow the steps of voxels
 _NEAR_BREAST_MM = 2.5
-_GAMMA = 0.8  # mid-greys are lifted a little, as a viewer's default window does
+GAMMA = 0.8  # mid-greys are lifted a little, as a viewer's default window does
 _OF_BREAST = [TISSUES.index(name) for name in ("fat", "fibroglandular", "skin", "tumour")]
 
 
@@ -91,7 +91,7 @@ class Slices:
     def nipple(self, plane: Plane) -> np.ndarray | None:
         """The nipple (3) if it lies in the slice or near it."""
         found = self.labels.landmarks.get("nipple")
-        return found if found is not None and abs(found[plane.axis] - self.through[plane.axis]) < _IN_PLANE_MM else None
+        return found if found is not None and abs(found[plane.axis] - self.through[plane.axis]) < IN_PLANE_MM else None
 
     # ---- one plane ---------------------------------------------------------------------------------------------------
 
@@ -105,7 +105,7 @@ class Slices:
         # Half a voxel is as fine as the scan; the page interpolates the rest.
         pitch = max(mm_per_pixel, 0.5 * float(self.scan.grid.spacing.min()))
         grey = self.scan.sample(_raster(corner, plane, size, pitch).reshape(-1, 3), 0) / self.white
-        grey = np.clip(grey, 0, 1).reshape(_rows(size, pitch)) ** _GAMMA
+        grey = np.clip(grey, 0, 1).reshape(_rows(size, pitch)) ** GAMMA
         panel.image(grey[::-1], np.array([-0.5 * pitch, -0.5 * pitch]), pitch, "bicubic")
         self._add_contours(panel, plane, corner, size)
 

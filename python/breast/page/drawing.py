@@ -13,7 +13,7 @@ import numpy as np
 
 from ..figures.mammogram import hung
 from ..figures.silhouette import contours, gaussian
-from ..figures.slices import AXIAL, CORONAL, SAGITTAL
+from ..figures.slices import AXIAL, CORONAL, GAMMA, IN_PLANE_MM, SAGITTAL
 from ..mammogram import Mammogram
 from ..state import State
 from ..study.html import data_uri
@@ -24,10 +24,8 @@ from .patient import PatientImage
 
 BAR_MM = 20
 _AROUND_MM = 15  # of a slice about the breast
-_NEAR_MM = 3  # a landmark farther from a slice is not marked in it: beside a nipple, which is some 10 mm wide, it would float in air
 _BESIDE_MM = 10  # of the patient's image about the simulated outline
 _ENDS = {"CC": ("lateral", "medial"), "MLO": ("superior", "inferior"), "ML": ("superior", "inferior")}
-_GAMMA = 0.8  # as in figures/slices.py
 _QUALITY = 90
 _RASTER_MM = 0.5  # on which the border of a band is found
 
@@ -142,13 +140,13 @@ def slice_picture(scan: Volume, state: State) -> Picture:
     grey = scan.sample(places.reshape(-1, 3), 0).reshape(rows, columns)
     white = max(float(np.percentile(grey, 99.5)), 1e-30)
     picture = Picture("MR", (float(size[0]), float(size[1])), (0.0, 0.0, float(size[0]), float(size[1])),
-                      _jpeg(np.clip(grey / white, 0, 1) ** _GAMMA), f"MR {number} of {count}", plane.words, True,
+                      _jpeg(np.clip(grey / white, 0, 1) ** GAMMA), f"MR {number} of {count}", plane.words, True,
                       f"{plane_name.capitalize()} slice {number} of {count} of the MR scan through the {name}")
     normal = np.cross(plane.right, plane.up)
 
     def put(landmark: str) -> np.ndarray | None:
         at = state.landmark_position(landmark, "imaged")
-        if abs((at - middle) @ normal) > _NEAR_MM:
+        if abs((at - middle) @ normal) > IN_PLANE_MM:
             return None
         return np.array([(at - corner) @ plane.right, (corner - at) @ plane.up])
     _mark(picture, state, put)

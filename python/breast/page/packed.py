@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ..elements import FACE_CORNERS
+from ..elements import face_corners
 from ..errors import BreastError
 from ..figures.mammogram import hung
 from ..figures.silhouette import contours
@@ -84,7 +84,7 @@ def packed_lookup(lookup: Lookup, middle: np.ndarray) -> dict[str, Any]:
 def packed_body(state: State) -> dict[str, Any]:
     """Edges of skin, chest wall and cut in the frame of the scan, mm, with nipple and tumour."""
     def edges(faces: np.ndarray) -> dict[str, Any]:
-        corners = state.hexahedra[faces[:, 0, None], FACE_CORNERS[faces[:, 1]]]
+        corners = face_corners(state.hexahedra, faces)
         ends = np.stack([corners, np.roll(corners, -1, 1)], -1).reshape(-1, 2)
         return _array(state.imaged[np.unique(np.sort(ends, 1), axis=0)].astype("<f4"))
     low, high = box_of(state)

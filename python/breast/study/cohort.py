@@ -7,13 +7,14 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
+from ..cases.cohort import listed_cases
 from ..errors import Failed
 from ..output import write_text
 from ..text_table import read_text
 from .advice import Advice, own_advice, warnings_of
 from .kinds import Request, kind
 from .stage_report import StageReport
-from .summary import lines_of, tumour_origin
+from .summary import tumour_origin
 from .table import NO_VALUE, Table, fixed, number_of, one_line, or_dash, read_table, table_if_any
 
 
@@ -30,15 +31,14 @@ def read_cases(runs: Path) -> list[Case]:
     """Reads RUNS/.cases (one line a case: name, file and kind) and RUNS/CASE.status: "done", or "failed" with the reason. "running"
     and a missing status count as failures."""
     cases = []
-    for line in lines_of(read_text(runs / ".cases")):
-        name, file = line.partition("\t")[0], runs / f"{line.partition(chr(9))[0]}.status"
-        status, reason = "failed", "never started"
+    for listed in listed_cases(runs / ".cases"):
+        file, status, reason = listed.status(runs), "failed", "never started"
         if file.is_file():
             status, _, reason = read_text(file).partition("\n")[0].partition("\t")
         if status == "running":
             status = "failed"
             reason = "ended without a message: it was killed, ran out of memory, lost its node, or is still running"
-        cases.append(Case(name, status, one_line(reason)))
+        cases.append(Case(listed.name, status, one_line(reason)))
     return cases
 
 

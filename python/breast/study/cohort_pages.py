@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import io
-import math
 from dataclasses import dataclass
 from pathlib import Path
+from statistics import fmean, stdev
 from typing import Any
 
 from PIL import Image
@@ -63,13 +63,6 @@ def contours_page(cohort: CohortPages) -> str:
     return _page("contours", cohort, f"Segmentations of {cohort.runs.name}", cases=cases)
 
 
-def mean_and_deviation(values: list[float]) -> tuple[float, float]:
-    n = len(values)
-    mean = sum(value / n for value in values)
-    square = sum((value - mean) ** 2 for value in values)
-    return mean, math.sqrt(square / (n - 1)) if n > 1 and square > 1e-18 else 0.0  # of equal values only their rounding differs
-
-
 def _page(template: str, cohort: CohortPages, title: str, **context: Any) -> str:
     ranks = list(map(_rank, cohort.cases))
     failed, looking = ranks.count(0), ranks.count(1)
@@ -90,22 +83,22 @@ def _distributions(cohort: CohortPages) -> list[dict[str, Any]]:
     tables = [(cohort.cases, column) for column in _QUANTITIES]
     if cohort.motion:
         tables += [(cohort.motion, column) for column in cohort.motion.columns[2:]]
-    found = (_distribution(table, column, cohort.women) for table, column in tables if column in table.columns)
+    found = (distribution(table, column, cohort.women) for table, column in tables if column in table.columns)
     return [distribution for distribution in found if distribution]
 
 
-def _distribution(table: Table, column: str, women: Table) -> dict[str, Any] | None:
+def distribution(table: Table, column: str, women: Table) -> dict[str, Any] | None:
     """The numbers of a column as a row of dots, one per case, over a grey band for the women's mean and deviation."""
     values = sorted(value for row in table if (value := number_of(row[column])) is not None)
     if not values:
         return None
-    own_mean, own_sd = mean_and_deviation(values)
     mean, sd = women.number_at(column, "mean"), women.number_at(column, "sd")
     known = mean is not None and sd is not None
     low, high = min(values[0], mean - 2 * sd) if known else values[0], max(values[-1], mean + 2 * sd) if known else values[-1]
     scale = 100 / (high - low) if high > low else 0.0
     return {"name": column,
-            "cells": [str(len(values)), general(own_mean, 4), general(own_sd, 3), general(values[0], 4), general(values[-1], 4)],
+            "cells": [str(len(values)), *(general(value, digits) for value, digits in
+                                          ((fmean(values), 4), (stdev(values) if values[1:] else 0, 3), (values[0], 4), (values[-1], 4)))],
             "women": f"{women.at(column, 'mean')} ({women.at(column, 'sd')})" if known else NO_VALUE,
             "band": (fixed((mean - sd - low) * scale, 1), fixed(2 * sd * scale, 1)) if known else None,
             "dots": [fixed((value - low) * scale, 1) for value in values]}

@@ -30,8 +30,8 @@ def declaration() -> Tool:
         "the plates do are still compared. Runs that have no stage in common are refused.")
     tool.word("FIRST", "folder of a run (runs/CASE)")
     tool.word("SECOND", "folder of another run")
-    tool.output_folder("--out", "FOLDER", "write compare.html, one self-contained page with the pictures of both runs side by side, and "
-                                          "compare.tsv to this folder")
+    tool.output_folder("--out", "write compare.html, one self-contained page with the pictures of both runs side by side, and compare.tsv "
+                                "to this folder")
     tool.check(lambda: _check(tool.args.first, tool.args.second))
     tool.example("compare runs/average runs/average-wellman", "what another material set changes")
     tool.example("compare runs/scan-left old/scan-left --out difference", "the same as a page with pictures: difference/compare.html")

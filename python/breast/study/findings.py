@@ -2,10 +2,10 @@
 """The effect of numerical choices on the paper's results, and the comparison with results to which the phantom was fitted."""
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 from ..errors import BreastError
-from .shapes import distance
 from .slopes import slope_cell
 from .stage_report import StageReport, posture_failure_of, variant_of
 from .table import NO_VALUE, Table, fixed, read_table
@@ -19,7 +19,7 @@ def moved_in(file: Path, landmark: str) -> float:
     imaged, position = report.place(landmark, "imaged"), report.place(landmark, "position")
     if imaged is None or position is None:
         raise BreastError(f"has no landmark '{landmark}'", file)
-    return distance(imaged, position)
+    return math.dist(imaged, position)
 
 
 def findings_table(run: Path, variants: list[str]) -> Table:

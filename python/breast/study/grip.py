@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..elements import FACE_CORNERS
+from ..elements import face_corners
 from ..records import Plate
 from ..state import State
 from .bounds import LEAST_CONTACT_PERCENT, MOST_EDGE_PERCENT
@@ -50,7 +50,7 @@ def grip(state: State) -> Grip | None:
     if contact is None or not contact.surface_stiffness > 0 or state.hexahedra.shape[1] != 8:
         return None
     faces = np.concatenate([state.faces["skin"], state.faces["cut"]])
-    corners = _corners(state, faces)
+    corners = face_corners(state.hexahedra, faces)
     paddle = contact.plates["paddle"]
     points, area = _samples(state.points[corners])
     _, imaged_area = _samples(state.imaged[corners])
@@ -60,7 +60,7 @@ def grip(state: State) -> Grip | None:
     share = np.concatenate([imaged_area * np.where(flat, 1 - _NODAL_PART, 1), np.repeat(nodal, 4, axis=1)], axis=1)
     found = [_pressed(where, share, contact.plates[name], contact.surface_stiffness) for name in ("paddle", "detector")]
     touching = float(area[gap(points, paddle) < TOUCHING_MM].sum())
-    projected = _projected(state.points[_corners(state, state.faces["skin"])], paddle)
+    projected = _projected(state.points[face_corners(state.hexahedra, state.faces["skin"])], paddle)
     return Grip(100 * touching / projected if projected > 0 else 0.0, (found[0][0], found[1][0]), (found[0][1], found[1][1]))
 
 
@@ -75,11 +75,6 @@ def gap(points: np.ndarray, plate: Plate) -> np.ndarray:
     rounded = np.hypot(height + radius, ahead) - radius
     upright = -ahead - radius
     return np.where(ahead >= 0, height, np.where(height > -radius, rounded, upright))
-
-
-def _corners(state: State, faces: np.ndarray) -> np.ndarray:
-    """Rows (F, 4) of the points at the corners of faces (F, 2)."""
-    return state.hexahedra[faces[:, :1], FACE_CORNERS[faces[:, 1]]]
 
 
 def _ahead(points: np.ndarray, plate: Plate) -> np.ndarray:

@@ -2,12 +2,13 @@
 """The effect of leaving out parts of the model, and the simplest model that stays within a given error."""
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 from ..text_table import parse_number
 from ..errors import BreastError
 from .kinds import Request, kind
-from .shapes import apart, distance
+from .shapes import apart
 from .stage_report import StageReport, variant_of
 from .table import NO_VALUE, Table, fixed, read_table, shortest
 
@@ -91,7 +92,7 @@ def wall_table(run: Path, variants: list[str]) -> Table:
         row = [variant, *_wall(folder)]
         for stage, landmark in places:
             here, there = (StageReport.read(f / f"{stage}.json").place(landmark, "position") for f in (folder, run))
-            row.append(fixed(distance(here, there), 2) if here and there else NO_VALUE)
+            row.append(fixed(math.dist(here, there), 2) if here and there else NO_VALUE)
         table.rows.append(row)
     return table
 

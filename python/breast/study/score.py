@@ -224,8 +224,8 @@ def declaration() -> Tool:
     tool.describe(
         "For a folder of runs, POINTS is a folder with one file a run, named as the run (CASE.tsv, CASE.mrk.json or CASE.fcsv), or one "
         "table with the column case. A run that cannot be scored is named with the reason, and left out of the summary.")
-    tool.word("RUN", "folder of a run, or of several", "text")
-    tool.word("POINTS", "what was seen: .tsv, .mrk.json, .fcsv, or a folder of such files", "text")
+    tool.word("RUN", "folder of a run, or of several")
+    tool.word("POINTS", "what was seen: .tsv, .mrk.json, .fcsv, or a folder of such files")
     tool.output_file("--table", "OUT.tsv", "one row per point and posture; stdout then has the summary alone")
     tool.output_file("--summary", "OUT.tsv", "the summary as a table of its own")
     tool.check(lambda: _check_exist(tool.args.run, tool.args.points))

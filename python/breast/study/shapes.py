@@ -32,20 +32,16 @@ def find_landmark(shape: Shape, name: str, file: Path) -> tuple[Place, Place]:
     raise BreastError(f"has no landmark '{name}'", file)
 
 
-def distance(a: Place, b: Place) -> float:
-    return math.dist(a, b)
-
-
 def moved(file: Path, landmark: str) -> float:
     """Distance from a landmark's imaged position to its position in this shape."""
     imaged, position = find_landmark(read_shape(file), landmark, file)
-    return _as_probed(distance(imaged, position))
+    return _as_probed(math.dist(imaged, position))
 
 
 def apart(file: Path, base: Path, landmark: str) -> float:
     """Distance between a landmark's positions in two shapes."""
     here, there = (find_landmark(read_shape(f), landmark, f)[1] for f in (file, base))
-    return _as_probed(distance(here, there))
+    return _as_probed(math.dist(here, there))
 
 
 def most_apart(file: Path, base: Path) -> float:

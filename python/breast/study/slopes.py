@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from .shapes import distance
 from .stage_report import Place, StageReport
 from .table import NO_VALUE, Table, fixed
 
@@ -65,7 +64,7 @@ def compare_slopes(slope: float, derivative: Place, imaged: Place, base: Place, 
         stiffness, places: s and the landmark's place there, the two near ones first.
     """
     s = [math.log(x) for x in stiffness]
-    log0, *logs = (math.log(distance(place, imaged)) for place in (base, *places))
+    log0, *logs = (math.log(math.dist(place, imaged)) for place in (base, *places))
     near, wide = (parabola_slope(s[i], s[i + 1], log0, logs[i], logs[i + 1]) for i in (0, 2))
     ratio = s[2] * s[3] / (s[0] * s[1])  # the error of the formula is proportional to the product of its steps
     resolved = [parabola_slope(s[0], s[1], *three) for three in zip(base, places[0], places[1])]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "evaluation/triangle_tree.hpp"
+#include "surface/triangle_tree.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
