@@ -53,7 +53,7 @@ std::vector<StageQuality> quality_of(const Segmentation& result) {
   Score contrast("contrast"), wall("wall"), extent("extent"), tissue("tissue");
   contrast.of("saturation_evidence", saturation_evidence(result.contrast), 0, 0.75)
       .of("fat_cv", result.bias_cv_after, 0.05, 0.086);
-  // Of a large deviation on few columns a doubt is said instead (doubts.cpp): beside the breast it is usual.
+  // A large deviation on few columns, usual at the side, is a doubt instead (doubts.cpp).
   wall.of("expected_mm", result.wall_expected_mm, 0, 1.2)
       .of("muscle_to_fat", result.muscle_ratio, 0.2, 0.12)
       .of("muscle_to_fat", result.muscle_ratio, 0.4, 0.5);

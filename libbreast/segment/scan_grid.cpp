@@ -144,26 +144,19 @@ HeightField on_columns(const HeightField& field, const Grid& from, const Grid& t
 
 }  // namespace
 
-namespace {
-
-/// Voxels of the scan that make one of the working grid.
-std::array<int, 3> working_factor(const Grid& scanned) {
+Volume<float> on_working_grid(const Volume<float>& scan) {
   const Vec3 wanted(1.6, 1.6, 2.6);  // mm
   std::array<int, 3> factor{};
   for (int d = 0; d < 3; ++d)
-    factor[d] = std::max(1, int(std::lround(wanted[d] / scanned.spacing[d])));
-  return factor;
-}
-
-}  // namespace
-
-Volume<float> on_working_grid(const Volume<float>& scan) {
-  const std::array<int, 3> factor = working_factor(scan.grid);
+    factor[d] = std::max(1, int(std::lround(wanted[d] / scan.grid.spacing[d])));
   return factor == std::array{1, 1, 1} ? scan : coarsened(scan, factor);
 }
 
-Grid working_grid(const Grid& scanned) {
-  return coarsened_grid(scanned, working_factor(scanned));
+std::size_t side_voxels(const Work& coarse, const Grid& scanned, Side side) {
+  const VoxelBox box = side_box(coarse, scanned, side);
+  std::size_t count = 1;
+  for (std::size_t d = 0; d < 3; ++d) count *= std::size_t(box.last[d] - box.first[d] + 1);
+  return count;
 }
 
 void divide_by_bias(Work& work, const BiasField& bias) {

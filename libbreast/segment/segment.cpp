@@ -453,7 +453,6 @@ std::string_view contrast_name(Contrast contrast) {
 
 Segmentation segment_breast(Volume<float> scan, const SegmentOptions& options, Progress& shown,
                             Timer& timer) {
-  Pace progress(shown, scan.grid.voxels(), working_grid(scan.grid).voxels());
   Work work;
   Images images;  // what was scanned; `work` may be coarser
   Segmentation result;
@@ -461,7 +460,7 @@ Segmentation segment_breast(Volume<float> scan, const SegmentOptions& options, P
   result.posture = options.posture;
   {
     const Timer::Scope phase(timer, "body");
-    progress.update("body", stage_begin::body, "");
+    shown.update("body", stage_begin::body, "");
     images = images_of(std::move(scan), options);
     start_work(work, images, options);
     const double roll = stand_upright(images, work.scan, work.body.mask, options);
@@ -471,6 +470,8 @@ Segmentation segment_breast(Volume<float> scan, const SegmentOptions& options, P
     result.beside_ml = work.body.beside_ml;
     frame_body(work, options);
   }
+  Pace progress(shown, images.tissue.grid.voxels(), work.scan.grid.voxels(),
+                side_voxels(work, images.tissue.grid, options.side));
   find_wall_on_either(work, images, result, options, progress, timer);
   const Timer::Scope phase(timer, "tissue");
   progress.update("tissue", stage_begin::tissue, "in the voxels of the scan");

@@ -58,9 +58,9 @@ struct Work {
 /// The scan in voxels of about 1.6 mm in plane and 2.6 mm along the body, where its own are finer:
 /// body, wall and bias are smooth on that scale, and need no more whatever the scan has.
 Volume<float> on_working_grid(const Volume<float>& scan);
-/// The grid of the result.
-Grid working_grid(const Grid& scanned);
 
+/// Number of a scan's voxels that show the chosen side, which on_scan_grid() cuts out.
+std::size_t side_voxels(const Work& coarse, const Grid& scanned, Side side);
 /// The chosen side of the original scan with everything found so far, for the final labels: if the
 /// working grid was coarser, the border of the body is determined again on the finer voxels. Speckle is taken out.
 /// The images are released as soon as the side is cut out of them.
