@@ -308,7 +308,7 @@ void run_segment(const Choices& c, Run& run) {
     take_wall(c.wall, *wall, options);
   }
   VolumeSource source;
-  const Volume<float> scan = [&] {
+  Volume<float> scan = [&] {
     const Timer::Scope phase(run.timer(), "read");
     return read_volume(c.scan, ScanChoice(c.series, options.side), &source);
   }();
@@ -329,7 +329,9 @@ void run_segment(const Choices& c, Run& run) {
     pairs.check("MR", mr, "--chest-wall", given);
     inputs.push_back({c.wall, given.content_sha256, nullptr});
   }
-  Segmentation result = segment_breast(scan, options, run.progress(), run.timer());
+  std::optional<Volume<float>> drawn;  // a second copy of the scan is kept only for its picture
+  if (!c.overlay.empty()) drawn = scan;
+  Segmentation result = segment_breast(std::move(scan), options, run.progress(), run.timer());
   run.progress().note(contrast_words(result));
   if (options.also) run.progress().note("--also: " + result.also.change);
   for (const std::string& doubt : result.doubts) run.warn(doubt);
@@ -354,7 +356,7 @@ void run_segment(const Choices& c, Run& run) {
   run.report().set("contrast", contrast_name(result.kind));
   if (options.also) run.report().set("also/change", result.also.change);
   const Timer::Scope phase(run.timer(), "write");
-  if (!c.overlay.empty()) write_overlay(c.overlay, scan, result.labels);
+  if (drawn) write_overlay(c.overlay, *drawn, result.labels);
   if (!c.points.empty()) write_surface(c.points, result.points);
   if (!c.measures.empty()) write_table(c.measures, measures);
   if (is_segmentation_name(c.labels)) {

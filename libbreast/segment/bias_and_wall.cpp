@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "segment/grid/filters.hpp"
+#include "segment/pace.hpp"
 
 namespace breast {
 
@@ -46,13 +47,15 @@ void correct_bias(Work& work, bool again, const BiasSettings& settings, const Li
   work.bias = fat_bias(coarse, allowed, distance, settings, again ? &previous : nullptr,
                        dim.share.voxels.empty() ? nullptr : &dim);
   divide_by_bias(work, work.bias);
+  work.ratio = within(work.body.mask, work.brightness);
 }
 
 }  // namespace
 
 void find_wall(Work& work, Progress& progress, Timer& timer) {
   for (int pass = 0; pass < 2; ++pass) {
-    progress.update("chest wall", 0.2 + 0.2 * pass, pass ? "second pass" : "first pass");
+    progress.update("chest wall", pass ? stage_begin::second_wall : stage_begin::first_wall,
+                    pass ? "second pass" : "first pass");
     {
       const Timer::Scope phase(timer, "bias");
       correct_bias(work, pass > 0, {}, [&](int i, int k) {

@@ -40,9 +40,9 @@ void measure_noise(Images& images) {
   images.speckled = is_speckle(noise);
 }
 
-Images images_of(const Volume<float>& scan, const SegmentOptions& options) {
+Images images_of(Volume<float> scan, const SegmentOptions& options) {
   Images images;
-  images.tissue = in_patient_order(scan);
+  images.tissue = in_patient_order(std::move(scan));
   images.seen = voxels_with_data(images.tissue);
   continue_beyond_data(images.tissue, images.seen);
   if (!options.fat) {

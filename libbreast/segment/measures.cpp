@@ -69,11 +69,13 @@ std::vector<Quantity> measures_of(const Segmentation& result) {
   add("wall_confident_percent", "chest_wall/confident_percent", result.wall_confident_percent);
   if (result.muscle_back_percent)
     add("muscle_back_percent", "chest_wall/muscle_back_percent", *result.muscle_back_percent);
+  add("wall_expected_mm", "chest_wall/expected_mm", result.wall_expected_mm);
   add("wall_sigma_mean_mm", "chest_wall/sigma_mean_mm", result.wall_sigma_mean);
   add("wall_sigma_p95_mm", "chest_wall/sigma_p95_mm", result.wall_sigma_p95);
   add("wall_shift_sigmas", "chest_wall/shift_sigmas", result.wall_shift);
   add("sternal_thickness_mm", "chest_wall/sternal_thickness_mm", result.sternal_thickness);
   add("breast_depth_mm", "breast_depth_mm", result.greatest_thickness);
+  add("breast_expected_dice", "extent/expected_dice", result.breast_expected_dice);
   add("front_left_out_percent", "extent/front_left_out_percent", result.front_left_out_percent);
   add("lateral_border_mm", "extent/lateral_border_mm", result.lateral_border_mm);
   add("nipple_depth_mm", "extent/nipple_depth_mm", result.nipple_depth_mm);

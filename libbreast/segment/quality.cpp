@@ -53,11 +53,12 @@ std::vector<StageQuality> quality_of(const Segmentation& result) {
   Score contrast("contrast"), wall("wall"), extent("extent"), tissue("tissue");
   contrast.of("saturation_evidence", saturation_evidence(result.contrast), 0, 0.75)
       .of("fat_cv", result.bias_cv_after, 0.05, 0.086);
-  wall.of("confident_percent", result.wall_confident_percent, 95, 80)
-      .of("sigma_p95_mm", result.wall_sigma_p95, 3, 6)
+  // A large deviation on few columns, usual at the side, is a doubt instead (doubts.cpp).
+  wall.of("expected_mm", result.wall_expected_mm, 0, 1.2)
       .of("muscle_to_fat", result.muscle_ratio, 0.2, 0.12)
       .of("muscle_to_fat", result.muscle_ratio, 0.4, 0.5);
-  extent.of("breast_ml", volume, 100, 50)
+  extent.of("expected_dice", result.breast_expected_dice, 1, 0.93)
+      .of("breast_ml", volume, 100, 50)
       .of("breast_ml", volume, 2500, 3500)
       .of("lateral_border_mm", result.lateral_border_mm, 90, 70)
       .of("lateral_border_mm", result.lateral_border_mm, 200, 230);

@@ -2,6 +2,7 @@
 // The working grid, and from it back to the scan's own voxels, cropped to the chosen side.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/elementary.hpp"
 #include "segment/grid/filters.hpp"
@@ -51,8 +52,8 @@ Volume<float> local_tissue(const Work& coarse) {
     weight.voxels[n] = coarse.body.mask.voxels[n];
     value.voxels[n] = coarse.body.mask.voxels[n] ? coarse.scan.voxels[n] : 0;
   }
-  weight = gaussian(weight, 4);
-  value = gaussian(value, 4);
+  weight = gaussian(std::move(weight), 4);
+  value = gaussian(std::move(value), 4);
   for (std::size_t n = 0; n < weight.voxels.size(); ++n)
     value.voxels[n] /= std::max(weight.voxels[n], 1e-3f);
   return value;
@@ -65,14 +66,16 @@ constexpr float skin_edge = 0.3f;
 /// Body where the working mask says so; within its last voxel or two, where the scan is above the
 /// edge of skin.
 Mask fine_body(const Work& coarse, const Volume<float>& scan) {
-  const Volume<float> distance = resampled(coarse.skin_distance, scan.grid);
-  const Volume<float> tissue = resampled(local_tissue(coarse), scan.grid);
-  // The border of the working mask is that of its voxels.
-  const double band = 1.2 * coarse.scan.grid.spacing[0];
   Mask body(scan.grid);
-  for (std::size_t n = 0; n < body.voxels.size(); ++n) {
-    const float d = distance.voxels[n];
-    body.voxels[n] = d < -band || (d < band && scan.voxels[n] > skin_edge * tissue.voxels[n]);
+  {
+    const Volume<float> distance = resampled(coarse.skin_distance, scan.grid);
+    const Volume<float> tissue = resampled(local_tissue(coarse), scan.grid);
+    // The border of the working mask is that of its voxels.
+    const double band = 1.2 * coarse.scan.grid.spacing[0];
+    for (std::size_t n = 0; n < body.voxels.size(); ++n) {
+      const float d = distance.voxels[n];
+      body.voxels[n] = d < -band || (d < band && scan.voxels[n] > skin_edge * tissue.voxels[n]);
+    }
   }
   return largest_component(body);
 }
@@ -149,13 +152,24 @@ Volume<float> on_working_grid(const Volume<float>& scan) {
   return factor == std::array{1, 1, 1} ? scan : coarsened(scan, factor);
 }
 
+std::size_t side_voxels(const Work& coarse, const Grid& scanned, Side side) {
+  const VoxelBox box = side_box(coarse, scanned, side);
+  std::size_t count = 1;
+  for (std::size_t d = 0; d < 3; ++d) count *= std::size_t(box.last[d] - box.first[d] + 1);
+  return count;
+}
+
 void divide_by_bias(Work& work, const BiasField& bias) {
   const Volume<float> log_bias = resampled(bias.log_bias, work.scan.grid);
-  work.ratio = work.brightness = work.scan;
-  for (std::size_t n = 0; n < log_bias.voxels.size(); ++n) {
+  work.brightness = work.scan;
+  for (std::size_t n = 0; n < log_bias.voxels.size(); ++n)
     work.brightness.voxels[n] /= elementary::exp(log_bias.voxels[n]);
-    work.ratio.voxels[n] = work.body.mask.voxels[n] ? work.brightness.voxels[n] : 0;
-  }
+}
+
+Volume<float> within(const Mask& body, Volume<float> brightness) {
+  for (std::size_t n = 0; n < body.voxels.size(); ++n)
+    if (!body.voxels[n]) brightness.voxels[n] = 0;
+  return brightness;
 }
 
 namespace {
@@ -198,23 +212,34 @@ void clear_of_air(Work& fine) {
   fine.skin_distance = signed_distance(fine.body.mask);
 }
 
+/// Body and skin's distance as the scan shows them or, if there is one, the outline.
+void find_fine_body(Work& fine, const Work& coarse, Volume<float> outline) {
+  fine.body = coarse.body;
+  if (outline.voxels.empty()) {
+    fine.body.mask = fine_body(coarse, fine.scan);
+  } else {
+    fine.body.mask = outlined_body(coarse, outline);
+    fine.own_distance = resampled(coarse.skin_distance, outline.grid);
+    outline = {};
+  }
+  fine.skin_distance = signed_distance(fine.body.mask);
+}
+
 }  // namespace
 
-Work on_scan_grid(const Work& coarse, const Images& images, Side side) {
+Work on_scan_grid(const Work& coarse, Images images, Side side) {
   Work fine;
   const VoxelBox box = side_box(coarse, images.tissue.grid, side);
   fine.scan = cropped(images.tissue, box);
   if (images.speckled) remove_speckle(fine.scan);
   if (!images.fat_share.voxels.empty()) fine.fat_share = cropped(images.fat_share, box);
   if (!images.seen.voxels.empty()) fine.seen = cropped(images.seen, box);
+  Volume<float> outline;
+  if (!images.outline.voxels.empty()) outline = cropped(images.outline, box);
+  images = {};
   const Grid& grid = fine.scan.grid;
   const Grid& working = coarse.scan.grid;
-  fine.body = coarse.body;
-  fine.body.mask = images.outline.voxels.empty()
-                       ? fine_body(coarse, fine.scan)
-                       : outlined_body(coarse, cropped(images.outline, box));
-  fine.skin_distance = signed_distance(fine.body.mask);
-  if (!images.outline.voxels.empty()) fine.own_distance = resampled(coarse.skin_distance, grid);
+  find_fine_body(fine, coarse, std::move(outline));
   divide_by_bias(fine, coarse.bias);
   // Depths count from the first voxel of each grid.
   const double shift = working.to_index(grid.origin)[1] * working.spacing[1];

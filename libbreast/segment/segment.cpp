@@ -19,9 +19,12 @@
 #include "segment/contrast/refusals.hpp"
 #include "segment/contrast/second_scan.hpp"
 #include "segment/contrast/suppressed.hpp"
+#include "segment/doubts.hpp"
+#include "segment/expected.hpp"
 #include "segment/grid/filters.hpp"
 #include "segment/grid/itk_filters.hpp"
 #include "segment/grid/noise.hpp"
+#include "segment/pace.hpp"
 #include "segment/plausibility.hpp"
 #include "segment/quality.hpp"
 #include "segment/tissue/compact_gland.hpp"
@@ -36,9 +39,8 @@ namespace breast {
 
 namespace {
 
-// Skin of a supine breast lies in front of and beside the sternum's; by this much a breast hangs
-// prone.
-constexpr double spread_behind = 40, hanging = 45;  // mm
+// Skin of a supine breast lies in front of and beside the sternum's.
+constexpr double spread_behind = 40;  // mm
 // Gland brighter than this share of fat has in part been taken for dim fat, and much of it lowers
 // the bias around it, which is then estimated again without it. A little (strands, vessels) does
 // not.
@@ -102,17 +104,18 @@ void summarise(Segmentation& result, const Work& work) {
     }
   }
   result.wall_confidence_mean = count > 0 ? sum / count : 0;
+  result.wall_expected_mm = expected_wall_mm(work);
+  result.breast_expected_dice = expected_breast_dice(work, result.cut_by_view_cm2);
   result.wall_confident_percent = count > 0 ? 100 * sure / count : 0;
   result.wall_sigma_mean = count > 0 ? sigma / count : 0;
   result.wall_sigma_p95 = percentile(std::move(sigmas), 0.95, result.wall_sigma_p95);
 }
 
-/// Volume (ml) within the breast that is darker than any of its tissues.
-double enclosed_dark_ml(const Work& work) {
-  double count = 0;
-  for (std::size_t n = 0; n < work.breast.voxels.size(); ++n)
-    count += work.breast.voxels[n] && work.enclosed_dark.voxels[n];
-  return count * work.scan.grid.voxel_volume() / mm3_per_ml;
+void take_extents(Segmentation& result, const Extents& found) {
+  result.front_left_out_percent = found.front_left_out_percent;
+  result.lateral_border_mm = found.lateral_border_mm;
+  result.nipple_depth_mm = found.nipple_depth_mm;
+  result.view_behind_sternum_mm = found.view_behind_sternum_mm;
 }
 
 /// The papilla or, where none stands out of a prone breast, the areola if its skin shows it. Only where fat is bright is skin dark.
@@ -127,103 +130,6 @@ Nipple nipple_of(const Work& work, Segmentation& result) {
   nipple.tip = nipple.base = result.areola.centre;
   nipple.from_extreme = (nipple.tip - nipple.extreme).norm();
   return nipple;
-}
-
-/// What is taken for a nipple that does not stand out.
-std::string instead_of_papilla(const Segmentation& result) {
-  if (!result.areola.found) return "the most anterior point of the smoothed skin";
-  return message("the middle of the thickest and darkest skin, which is probably the areola, ",
-                 std::lround(result.nipple_from_extreme), " mm from the most anterior point,");
-}
-
-/// What a reader of the result should look at, but for its extent.
-void find_doubts(Segmentation& result, const Work& work) {
-  if (result.wall_confident_percent < 80) {
-    result.doubts.push_back(
-        message("chest wall uncertain on ", std::lround(100 - result.wall_confident_percent),
-                " % of the breast's columns: check it (--overlay) and correct it with "
-                "--chest-wall"));
-  }
-  if (result.muscle_ratio < 0.12) {
-    result.doubts.push_back(
-        message("behind the chest wall the image has ", std::lround(100 * result.muscle_ratio),
-                " % of the brightness of fat (muscle has 20-40 %): it may be lung, or fat may be "
-                "saturated; check it (--overlay)"));
-  }
-  if (result.roll_degrees != 0) {
-    result.doubts.push_back(message("the body is rotated by ", std::lround(result.roll_degrees),
-                                    " degrees against the scan's axes: the scan was resampled "
-                                    "along the axes of the body"));
-  }
-  if (result.cut_by_view_cm2 > 5) {
-    result.doubts.push_back(message("the field of view truncates the breast on ",
-                                    std::lround(result.cut_by_view_cm2),
-                                    " cm2: volume and lateral support are those of the visible "
-                                    "part"));
-  }
-  if (work.torso.one_breast) {
-    result.doubts.push_back(message(
-        "only one breast is in the field of view: the midline was placed at the deepest skin "
-        "medial of it, at x = ",
-        std::lround(result.midline_mm), " mm; check the sternal border"));
-  }
-  if (const double dark = enclosed_dark_ml(work); dark > 0) {
-    result.doubts.push_back(
-        message(format_fixed(dark, 1),
-                " ml within the breast are darker than a tenth of its fat (a clip, a vessel, a "
-                "cyst): they are labelled as the tissue that their brightness suggests"));
-  }
-  if (result.beside_ml > 150) {
-    result.doubts.push_back(message(std::lround(result.beside_ml),
-                                    " ml of tissue are separate from the torso (arms, or tissue "
-                                    "wrapped around the field of view) and were omitted; see "
-                                    "--overlay"));
-  }
-  if (result.compact_dark_mm > 20) {
-    result.doubts.push_back(
-        message("a ball of ", std::lround(result.compact_dark_mm),
-                " mm radius fits into tissue labelled fibroglandular: this may be an implant, a "
-                "cyst or a very dense breast; implants are not modelled"));
-  }
-  if (result.flat_skin_cm2 > 6) {
-    result.doubts.push_back(
-        message(std::lround(result.flat_skin_cm2),
-                " cm2 of the skin are flat, as if the breast rested on the coil or table: "
-                "backward assumes that it hangs freely"));
-  }
-  if (result.posture == Posture::prone && !(result.papilla_height > 0)) {
-    result.doubts.push_back(message(
-        "nothing stands out of the skin near the front of the breast: ", instead_of_papilla(result),
-        " is taken for the nipple; check it (--overlay)"));
-  }
-}
-
-/// What a reader should know of the contrast.
-void doubt_contrast(Segmentation& result) {
-  constexpr double much = 1;  // % of the breast
-  if (result.exchanged_percent > much) {
-    result.doubts.push_back(message("water and fat are exchanged in ",
-                                    std::lround(result.exchanged_percent),
-                                    " % of the breast: fat's share was turned over there; check "
-                                    "fibroglandular tissue (--overlay)"));
-  }
-}
-
-void doubt_extent(Segmentation& result, const Extents& found, const SegmentOptions& options) {
-  result.front_left_out_percent = found.front_left_out_percent;
-  result.lateral_border_mm = found.lateral_border_mm;
-  result.nipple_depth_mm = found.nipple_depth_mm;
-  result.view_behind_sternum_mm = found.view_behind_sternum_mm;
-  if (options.posture != Posture::prone) {
-    if (found.nipple_in_front_mm > hanging) {
-      result.doubts.push_back(message("the nipple stands ", std::lround(found.nipple_in_front_mm),
-                                      " mm in front of the sternum's skin (supine below ", hanging,
-                                      "): is the scan prone?"));
-    }
-    return;
-  }
-  for (std::string& doubt : extent_doubts(found, result.greatest_thickness))
-    result.doubts.push_back(std::move(doubt));
 }
 
 /// Depth (mm) to which skin darkens what lies below it: its own and that of voxels shared with it,
@@ -247,14 +153,14 @@ void separate_tissue(Work& work, Interior by, Segmentation& result) {
   work.skin = skin_thickness(work.brightness, work.breast, work.skin_distance);
   const Mask interior = below_skin(work), by_muscle = near_unsure_wall(work, 8);
   if (work.fat_share.voxels.empty()) {
-    work.gland = find_fibroglandular(work.ratio, interior, by_muscle, work.wall.muscle_ratio,
-                                     result.bias_cv_after, by);
+    work.gland = find_fibroglandular(work.brightness, work.body.mask, interior, by_muscle,
+                                     work.wall.muscle_ratio, result.bias_cv_after, by);
     return;
   }
   const FatShare share = fat_share_of(work);
   result.exchanged_percent = 100 * share.exchanged;
-  work.gland =
-      find_fibroglandular(share.ratio, interior, by_muscle, share.muscle, share.scatter, by);
+  work.gland = find_fibroglandular(share.ratio, work.body.mask, interior, by_muscle, share.muscle,
+                                   share.scatter, by);
 }
 
 /// Compact gland that misleads the estimate of the bias: of which much was taken for dim fat, or
@@ -287,9 +193,25 @@ MisleadingGland misleading_gland(const Work& work) {
   return gland;
 }
 
+/// Estimates the bias again where gland has misled it. Returns whether it has.
+bool correct_misled_bias(Work& work, Work coarse, Segmentation& result) {
+  const MisleadingGland gland = misleading_gland(work);
+  if (gland.share.voxels.empty()) return false;
+  refine_bias(coarse, &gland);
+  divide_by_bias(work, coarse.bias);
+  result.bias_cv_after = coarse.bias.fat_cv_after;
+  return true;
+}
+
+/// Radius (mm) of the largest ball within a mask.
+double greatest_depth_within(const Mask& mask) {
+  const Volume<float> distance = signed_distance(mask);
+  return std::max(0.0f, -*std::min_element(distance.voxels.begin(), distance.voxels.end()));
+}
+
 /// What the user says of the wall, and muscle that lies on it, in a scan with bright or `suppressed` fat.
 void complete_wall(Work& work, bool suppressed, const SegmentOptions& options, Progress& progress) {
-  progress.update("chest wall", 0.5, "muscle on it");
+  progress.update("chest wall", stage_begin::muscle, "muscle on it");
   if (!corrected_by_hand(options)) {
     refine_bias(work);
     // As suppressed fat is shown, noise turns mixtures of it with skin into muscle.
@@ -529,8 +451,8 @@ std::string_view contrast_name(Contrast contrast) {
   }
 }
 
-Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& options,
-                            Progress& progress, Timer& timer) {
+Segmentation segment_breast(Volume<float> scan, const SegmentOptions& options, Progress& shown,
+                            Timer& timer) {
   Work work;
   Images images;  // what was scanned; `work` may be coarser
   Segmentation result;
@@ -538,8 +460,8 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
   result.posture = options.posture;
   {
     const Timer::Scope phase(timer, "body");
-    progress.update("body", 0, "");
-    images = images_of(scan, options);
+    shown.update("body", stage_begin::body, "");
+    images = images_of(std::move(scan), options);
     start_work(work, images, options);
     const double roll = stand_upright(images, work.scan, work.body.mask, options);
     if (roll != 0) start_work(work, images, options);
@@ -548,32 +470,31 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
     result.beside_ml = work.body.beside_ml;
     frame_body(work, options);
   }
+  Pace progress(shown, images.tissue.grid.voxels(), work.scan.grid.voxels(),
+                side_voxels(work, images.tissue.grid, options.side));
   find_wall_on_either(work, images, result, options, progress, timer);
   const Timer::Scope phase(timer, "tissue");
-  progress.update("tissue", 0.6, "");
+  progress.update("tissue", stage_begin::tissue, "in the voxels of the scan");
   Work coarse = std::move(work);
-  work = on_scan_grid(coarse, images, options.side);
-  images = {};
+  // Of the working grid, only what the bias may be estimated again from is still needed.
+  coarse.ratio = {};
+  coarse.brightness = {};
+  work = on_scan_grid(coarse, std::move(images), options.side);
+  progress.update("tissue", stage_begin::breast, "extent of the breast");
   work.extent = find_extent(work.wall, work.domain, work.torso, work.skin_distance, options.side,
                             options.posture);
   work.breast = breast_voxels(work.body.mask, work.wall, work.domain, work.torso, work.extent,
                               options.side, options.posture);
   for (std::size_t n = 0; n < work.seen.voxels.size(); ++n)
     work.breast.voxels[n] &= work.seen.voxels[n];
+  progress.update("tissue", stage_begin::gland, "fat and gland");
   separate_tissue(work, Interior::threshold, result);
-  const MisleadingGland gland = misleading_gland(work);
-  const bool again = !gland.share.voxels.empty();
-  if (again) {
-    refine_bias(coarse, &gland);
-    divide_by_bias(work, coarse.bias);
-    result.bias_cv_after = coarse.bias.fat_cv_after;
-  }
-  if (again || options.interior != Interior::threshold)
+  if (correct_misled_bias(work, std::move(coarse), result) ||
+      options.interior != Interior::threshold)
     separate_tissue(work, options.interior, result);
+  progress.update("tissue", stage_begin::result, "nipple and measures");
   result.lost_edges_percent = lost_edges_percent(work.scan, below_skin(work), work.gland);
-  const Volume<float> inside_gland = signed_distance(work.gland.lobes);
-  result.compact_dark_mm =
-      std::max(0.0f, -*std::min_element(inside_gland.voxels.begin(), inside_gland.voxels.end()));
+  result.compact_dark_mm = greatest_depth_within(work.gland.lobes);
   result.labels = labels_of(work, options.side);
   if (options.wall_labels)
     result.muscle_back_percent = 100 * end_muscle(result.labels, *options.wall_labels);
@@ -590,9 +511,9 @@ Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& opt
   // A supine breast is flat, and what its side rests on is not gone back to.
   if (!supine) result.flat_skin_cm2 = flat_skin_cm2(work);
   summarise(result, work);
-  find_doubts(result, work);
-  doubt_contrast(result);
-  doubt_extent(result, extents_of(work, nipple.tip, options.side), options);
+  const Extents found = extents_of(work, nipple.tip, options.side);
+  take_extents(result, found);
+  add_doubts(result, work, found);
   if (!corrected_by_hand(options)) refuse_without_wall(result);
   return result;
 }

@@ -67,9 +67,10 @@ struct Segmentation {
   double bias_range = 1;                     ///< brightest over dimmest fat, 1 %-99 % of the breast
   double muscle_ratio = 0, gland_ratio = 0;  ///< brightness relative to fat
   double fat_fraction = 0, fat_fraction_grown = 0, fibroglandular_agreement = 0;
-  double fibroglandular_expected_dice = 1;         ///< expected_gland_dice (quality.hpp)
-  double wall_confidence_mean = 0;                 ///< over the breast's columns
-  double wall_sigma_mean = 0, wall_sigma_p95 = 0;  ///< mm, over the breast's columns
+  double fibroglandular_expected_dice = 1;                ///< expected_gland_dice (quality.hpp)
+  double wall_confidence_mean = 0;                        ///< over the breast's columns
+  double wall_expected_mm = 0, breast_expected_dice = 1;  ///< expected.hpp
+  double wall_sigma_mean = 0, wall_sigma_p95 = 0;         ///< mm, over the breast's columns
   std::optional<double>
       muscle_back_percent;            ///< columns in which the muscle of wall_labels has a back
   double wall_confident_percent = 0;  ///< columns with confidence above 0.5
@@ -98,8 +99,9 @@ struct Segmentation {
   Areola areola;                    ///< sought where no papilla stands out
 };
 
-/// Throws Error (input) saying which stage failed on this scan and what to try.
-Segmentation segment_breast(const Volume<float>& scan, const SegmentOptions& options,
-                            Progress& progress, Timer& timer);
+/// Throws Error (input) saying which stage failed on this scan and what to try. A scan that is moved in needs no room
+/// beside the work on it.
+Segmentation segment_breast(Volume<float> scan, const SegmentOptions& options, Progress& progress,
+                            Timer& timer);
 
 }  // namespace breast

@@ -24,7 +24,7 @@ struct Images {
 /// Sets `noise` and `speckled` from `tissue`.
 void measure_noise(Images& images);
 /// The images of a scan in patient order: water and fat of a Dixon scan become their sum.
-Images images_of(const Volume<float>& scan, const SegmentOptions& options);
+Images images_of(Volume<float> scan, const SegmentOptions& options);
 /// What shows tissue, without disturbing noise, on the working grid.
 Volume<float> working_scan(const Images& images);
 /// Which voxels of a grid have data, by their centres; empty: all.
@@ -36,8 +36,9 @@ double stand_upright(Images& images, const Volume<float>& scanned, const Mask& b
 
 /// All volumes have the same grid.
 struct Work {
-  Volume<float> scan, ratio, skin_distance;
-  Volume<float> brightness;  ///< as ratio (scan over bias), also outside the body
+  Volume<float> scan, skin_distance;
+  Volume<float> brightness;  ///< scan over bias: 1 in fat
+  Volume<float> ratio;       ///< on the working grid: brightness within the body, 0 outside
   Volume<float> fat_share;   ///< as in Images
   Mask seen;                 ///< as in Images
   /// Distance (mm) from the skin that `scan` shows; empty where that is the skin of the body.
@@ -58,12 +59,17 @@ struct Work {
 /// body, wall and bias are smooth on that scale, and need no more whatever the scan has.
 Volume<float> on_working_grid(const Volume<float>& scan);
 
+/// Number of a scan's voxels that show the chosen side, which on_scan_grid() cuts out.
+std::size_t side_voxels(const Work& coarse, const Grid& scanned, Side side);
 /// The chosen side of the original scan with everything found so far, for the final labels: if the
 /// working grid was coarser, the border of the body is determined again on the finer voxels. Speckle is taken out.
-Work on_scan_grid(const Work& coarse, const Images& images, Side side);
+/// The images are released as soon as the side is cut out of them.
+Work on_scan_grid(const Work& coarse, Images images, Side side);
 
-/// Brightness and ratio from the scan, and a bias on any grid.
+/// Brightness from the scan, and a bias on any grid.
 void divide_by_bias(Work& work, const BiasField& bias);
+/// The brightness in the body, and 0 outside.
+Volume<float> within(const Mask& body, Volume<float> brightness);
 
 /// Interior of the breast: deeper than `skin_depth` mm, more than `wall_margin` mm in front of the
 /// wall.

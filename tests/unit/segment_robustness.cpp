@@ -406,19 +406,22 @@ TEST(Quality, FallsBelowOneHalfWhereAReaderHasToLook) {
   for (const char* stage : {"contrast", "wall", "extent", "tissue"})
     EXPECT_GT(score(base, stage), 0.7) << stage;
   Segmentation worse = base;
-  worse.wall_confident_percent = 75;
+  worse.wall_expected_mm = 1.3;
   worse.front_left_out_percent = 13;
   worse.fibroglandular_agreement = 0.4;
   worse.bias_cv_after = 0.09;
   for (const char* stage : {"contrast", "wall", "extent", "tissue"})
     EXPECT_LT(score(worse, stage), least_quality) << stage;
   worse = base;
+  worse.breast_expected_dice = 0.92;
+  EXPECT_LT(score(worse, "extent"), least_quality);
+  worse = base;
   worse.lost_edges_percent = 65;
   EXPECT_LT(score(worse, "tissue"), least_quality);
   worse = base;
   worse.fibroglandular_expected_dice = 0.55;
   EXPECT_LT(score(worse, "tissue"), least_quality);
-  worse.wall_confident_percent = std::nan("");
+  worse.wall_expected_mm = std::nan("");
   EXPECT_EQ(score(worse, "wall"), 0);
 }
 

@@ -19,7 +19,7 @@ constexpr float middle_sum = 0.78f, middle_share = 0.5f;
 Volume<float> agreement(const Work& work) {
   Volume<float> same(work.scan.grid);
   for (std::size_t n = 0; n < same.voxels.size(); ++n) {
-    const float sum = std::min(work.ratio.voxels[n], 1.2f) - middle_sum;
+    const float sum = std::min(work.brightness.voxels[n], 1.2f) - middle_sum;
     if (work.body.mask.voxels[n]) same.voxels[n] = sum * (work.fat_share.voxels[n] - middle_share);
   }
   return same;
@@ -47,7 +47,8 @@ double gland_brightness(const Work& work, const Volume<float>& share) {
   constexpr double usual = 0.45, least = 0.2, most = 0.9;
   std::vector<float> values;
   for (std::size_t n = 0; n < share.voxels.size(); ++n)
-    if (work.breast.voxels[n] && share.voxels[n] < most_fat) values.push_back(work.ratio.voxels[n]);
+    if (work.breast.voxels[n] && share.voxels[n] < most_fat)
+      values.push_back(work.brightness.voxels[n]);
   return std::clamp(median(std::move(values), usual), least, most);
 }
 
@@ -93,7 +94,7 @@ FatShare fat_share_of(const Work& work) {
   for (std::size_t n = 0; n < same.voxels.size(); ++n) {
     if (!work.body.mask.voxels[n]) continue;
     const bool turned = around.voxels[n] < 0;
-    const float own = work.fat_share.voxels[n], sum = work.ratio.voxels[n];
+    const float own = work.fat_share.voxels[n], sum = work.brightness.voxels[n];
     float& share = found.ratio.voxels[n] = turned ? 1 - own : own;
     if ((turned ? -1 : 1) * same.voxels[n] < contradiction)
       share = std::clamp((sum - darkest) / (1 - darkest), 0.0f, 1.0f);

@@ -53,13 +53,12 @@ std::vector<float> gaussian_taps(double sigma) {
 
 }  // namespace
 
-Volume<float> gaussian(const Volume<float>& volume, double sigma) {
-  Volume<float> out = volume;
+Volume<float> gaussian(Volume<float> volume, double sigma) {
   for (int d = 0; d < 3; ++d) {
     const std::vector<float> taps = gaussian_taps(sigma / volume.grid.spacing[d]);
     const int radius = int(taps.size()) - 1;
     if (radius == 0) continue;
-    along_axis(out, d, radius, [&](const float* in, std::vector<float>& result) {
+    along_axis(volume, d, radius, [&](const float* in, std::vector<float>& result) {
       const int n = int(result.size());
       for (int m = 0; m < n; ++m) result[m] = taps[0] * in[radius + m];
       for (int r = 1; r <= radius; ++r) {
@@ -68,21 +67,20 @@ Volume<float> gaussian(const Volume<float>& volume, double sigma) {
       }
     });
   }
-  return out;
+  return volume;
 }
 
-Volume<float> box_maximum(const Volume<float>& volume, double half) {
-  Volume<float> out = volume;
+Volume<float> box_maximum(Volume<float> volume, double half) {
   for (int d = 0; d < 3; ++d) {
     const int radius = int(half / volume.grid.spacing[d]);
-    along_axis(out, d, radius, [&](const float* in, std::vector<float>& result) {
+    along_axis(volume, d, radius, [&](const float* in, std::vector<float>& result) {
       const int n = int(result.size());
       std::copy_n(in, n, result.begin());
       for (int r = 1; r <= 2 * radius; ++r)
         for (int m = 0; m < n; ++m) result[m] = std::max(result[m], in[m + r]);
     });
   }
-  return out;
+  return volume;
 }
 
 }  // namespace breast

@@ -8,8 +8,8 @@ namespace breast {
 
 /// Gaussian filter with the standard deviation `sigma` mm along each axis, truncated at 3 sigma;
 /// values beyond the border equal those on the border.
-Volume<float> gaussian(const Volume<float>& volume, double sigma);
+Volume<float> gaussian(Volume<float> volume, double sigma);
 /// Maximum filter: the largest value within ± half mm along each axis.
-Volume<float> box_maximum(const Volume<float>& volume, double half);
+Volume<float> box_maximum(Volume<float> volume, double half);
 
 }  // namespace breast

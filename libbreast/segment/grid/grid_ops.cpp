@@ -9,7 +9,7 @@
 
 namespace breast {
 
-Volume<float> in_patient_order(const Volume<float>& volume) {
+Volume<float> in_patient_order(Volume<float> volume) {
   const Grid& from = volume.grid;
   // Of the six permutations the one whose directions lie closest to x, y, z.
   std::array<int, 3> axis{0, 1, 2}, best = axis;
@@ -33,6 +33,7 @@ Volume<float> in_patient_order(const Volume<float>& volume) {
     out.grid.direction.col(d) = (flip[d] ? -1.0 : 1.0) * from.direction.col(best[d]);
     if (flip[d]) corner[best[d]] = from.size[best[d]] - 1;
   }
+  if (best == std::array{0, 1, 2} && flip == std::array{false, false, false}) return volume;
   out.grid.origin = from.to_patient(corner);
   out.voxels.resize(volume.voxels.size());
   for (int k = 0; k < out.grid.size[2]; ++k) {

@@ -18,7 +18,7 @@ inline constexpr std::array<std::array<int, 3>, 6> face_neighbours = {
 
 /// The same voxels with axes permuted and flipped so that i runs mostly to the patient's left, j to
 /// posterior and k to superior. Every voxel keeps its position in the patient.
-Volume<float> in_patient_order(const Volume<float>& volume);
+Volume<float> in_patient_order(Volume<float> volume);
 /// Mean of blocks of factor[0] x factor[1] x factor[2] voxels; incomplete blocks at the far ends
 /// are averaged over their existing voxels.
 Volume<float> coarsened(const Volume<float>& volume, const std::array<int, 3>& factor);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <span>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -45,28 +46,46 @@ void run(Filter& filter) {
   }
 }
 
-}  // namespace
+using Numbers = itk::Image<std::uint32_t, 3>;
 
-Components components(const Mask& mask) {
-  using Labels = itk::Image<std::uint32_t, 3>;
-  auto filter = itk::ConnectedComponentImageFilter<itk::Image<std::uint8_t, 3>, Labels>::New();
+/// As Components, in the image that the filter has filled.
+struct NumberedImage {
+  Numbers::Pointer image;
+  std::uint32_t count;
+  std::span<const std::uint32_t> label;
+};
+
+NumberedImage numbered_components(const Mask& mask) {
+  auto filter = itk::ConnectedComponentImageFilter<itk::Image<std::uint8_t, 3>, Numbers>::New();
   filter->SetInput(image_of(mask));
   run(*filter);
-  const std::uint32_t* label = filter->GetOutput()->GetBufferPointer();
-  return {std::uint32_t(filter->GetObjectCount()),
-          std::vector<std::uint32_t>(label, label + mask.voxels.size())};
+  const Numbers::Pointer image = filter->GetOutput();
+  return {image,
+          std::uint32_t(filter->GetObjectCount()),
+          {image->GetBufferPointer(), mask.voxels.size()}};
 }
 
-std::vector<std::size_t> sizes(const Components& parts) {
-  std::vector<std::size_t> count(std::size_t(parts.count) + 1, 0);
-  for (const std::uint32_t part : parts.label) ++count[part];
+std::vector<std::size_t> sizes_of(std::uint32_t parts, std::span<const std::uint32_t> label) {
+  std::vector<std::size_t> count(std::size_t(parts) + 1, 0);
+  for (const std::uint32_t part : label) ++count[part];
   count[0] = 0;
   return count;
 }
 
+}  // namespace
+
+Components components(const Mask& mask) {
+  const NumberedImage parts = numbered_components(mask);
+  return {parts.count, {parts.label.begin(), parts.label.end()}};
+}
+
+std::vector<std::size_t> sizes(const Components& parts) {
+  return sizes_of(parts.count, parts.label);
+}
+
 Mask largest_component(const Mask& mask) {
-  const Components parts = components(mask);
-  const std::vector<std::size_t> count = sizes(parts);
+  const NumberedImage parts = numbered_components(mask);
+  const std::vector<std::size_t> count = sizes_of(parts.count, parts.label);
   const auto largest = std::uint32_t(std::max_element(count.begin(), count.end()) - count.begin());
   Mask out(mask.grid);
   if (count[largest] == 0) return out;
@@ -89,11 +108,12 @@ Volume<float> signed_distance(const Mask& mask) {
   return out;
 }
 
-Mask confidence_connected(const Volume<float>& volume, const std::vector<std::array<int, 3>>& seeds,
+Mask confidence_connected(Volume<float> volume, const std::vector<std::array<int, 3>>& seeds,
                           double multiplier, int radius, int iterations) {
   auto filter =
       itk::ConfidenceConnectedImageFilter<itk::Image<float, 3>, itk::Image<std::uint8_t, 3>>::New();
   filter->SetInput(image_of(volume));
+  volume.voxels = {};
   for (const auto& seed : seeds) filter->AddSeed({{seed[0], seed[1], seed[2]}});
   filter->SetMultiplier(multiplier);
   filter->SetInitialNeighborhoodRadius(unsigned(radius));

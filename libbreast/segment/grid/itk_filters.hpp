@@ -21,7 +21,7 @@ Mask largest_component(const Mask& mask);
 Volume<float> signed_distance(const Mask& mask);
 /// Confidence-connected region growing (mean +- multiplier * sigma, `iterations` re-estimates, seed
 /// neighbourhood of radius `radius` voxels) from seeds; 1 inside the grown region.
-Mask confidence_connected(const Volume<float>& volume, const std::vector<std::array<int, 3>>& seeds,
+Mask confidence_connected(Volume<float> volume, const std::vector<std::array<int, 3>>& seeds,
                           double multiplier, int radius, int iterations);
 
 }  // namespace breast

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "core/statistics/percentile.hpp"
 #include "segment/grid/filters.hpp"
@@ -30,7 +31,7 @@ Volume<float> without_noise(const Volume<float>& scan, double noise) {
   if (!(noise > 0)) return scan;
   Volume<float> signal = scan;
   for (float& v : signal.voxels) v *= v;
-  signal = gaussian(signal, width);
+  signal = gaussian(std::move(signal), width);
   const float second_moment = float(2 * noise * noise);
   for (float& v : signal.voxels) v = std::sqrt(std::max(v - second_moment, 0.0F));
   return signal;

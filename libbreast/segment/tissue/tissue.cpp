@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/statistics/percentile.hpp"
@@ -18,13 +19,14 @@ namespace {
 constexpr double least_lobe = 60;          // mm3
 constexpr double growing_smoothing = 1.0;  // mm: keeps noise from carrying the growth into gland
 
-/// Otsu's threshold of ratios in [0.1, 1.3].
-double threshold_of_ratios(const std::vector<float>& ratios) {
+/// Otsu's threshold of the interior's ratios in [0.1, 1.3].
+double threshold_of_ratios(const Volume<float>& ratio, const Mask& interior) {
   constexpr int classes = 120;
   constexpr double low = 0.1, width = 0.01;
   std::vector<double> count(classes);
-  for (const float r : ratios) {
-    const int c = int((r - low) / width);
+  for (std::size_t n = 0; n < ratio.voxels.size(); ++n) {
+    if (!interior.voxels[n]) continue;
+    const int c = int((ratio.voxels[n] - low) / width);
     if (c >= 0 && c < classes) count[c] += 1;
   }
   return low + width * otsu_class(count, classes / 2);
@@ -60,16 +62,19 @@ std::vector<std::array<int, 3>> fat_seeds(const Volume<float>& ratio, const Mask
 
 /// Fibroglandular voxels of the interior: neither reached by growing the fat nor brighter than it.
 /// All zero without seeds.
-Mask gland_by_growing(const Volume<float>& ratio, const Mask& interior) {
-  Volume<float> inside = gaussian(ratio, growing_smoothing);
+Mask gland_by_growing(const Volume<float>& ratio, const Mask& body, const Mask& interior) {
+  Volume<float> inside = ratio;
+  for (std::size_t n = 0; n < inside.voxels.size(); ++n)
+    if (!body.voxels[n]) inside.voxels[n] = 0;
+  inside = gaussian(std::move(inside), growing_smoothing);
   for (std::size_t n = 0; n < inside.voxels.size(); ++n) {
     if (!interior.voxels[n]) inside.voxels[n] = -10;
   }
   const auto seeds = fat_seeds(ratio, interior);
   Mask gland(ratio.grid);
   if (seeds.empty()) return gland;
-  const Mask fat = confidence_connected(inside, seeds, 1.5, 1, 5);
-  for (std::size_t n = 0; n < inside.voxels.size(); ++n) {
+  const Mask fat = confidence_connected(std::move(inside), seeds, 1.5, 1, 5);
+  for (std::size_t n = 0; n < gland.voxels.size(); ++n) {
     gland.voxels[n] = interior.voxels[n] && !fat.voxels[n] && ratio.voxels[n] < 1;
   }
   return gland;
@@ -121,7 +126,7 @@ Mask with_surroundings(const Mask& mask, const Mask& interior) {
   Volume<float> found(mask.grid);
   for (std::size_t n = 0; n < mask.voxels.size(); ++n) found.voxels[n] = mask.voxels[n];
   const double reach = std::max(1.5, 1.01 * mask.grid.spacing.minCoeff());
-  const Volume<float> wider = box_maximum(found, reach);
+  const Volume<float> wider = box_maximum(std::move(found), reach);
   Mask out(mask.grid);
   for (std::size_t n = 0; n < mask.voxels.size(); ++n)
     out.voxels[n] = interior.voxels[n] && wider.voxels[n] > 0;
@@ -192,19 +197,15 @@ void compare(Fibroglandular& result, const Mask& interior, const Mask& dark,
 
 }  // namespace
 
-Fibroglandular find_fibroglandular(const Volume<float>& ratio, const Mask& interior,
-                                   const Mask& by_muscle, double muscle_ratio, double fat_cv,
-                                   Interior interior_by) {
+Fibroglandular find_fibroglandular(const Volume<float>& ratio, const Mask& body,
+                                   const Mask& interior, const Mask& by_muscle, double muscle_ratio,
+                                   double fat_cv, Interior interior_by) {
   Fibroglandular result;
-  std::vector<float> values;
-  for (std::size_t n = 0; n < ratio.voxels.size(); ++n) {
-    if (interior.voxels[n]) values.push_back(ratio.voxels[n]);
-  }
   // Midway between gland and fat (1 by the bias correction). Without gland Otsu would split the fat
   // in two: gland is darker than fat's scatter reaches, and the search starts and ends there.
   const double brightest_gland = std::clamp(1 - 3 * fat_cv, 0.8, 0.87);
-  const double start =
-      std::clamp(threshold_of_ratios(values), 0.5 * (1 + muscle_ratio) - 0.15, brightest_gland);
+  const double start = std::clamp(threshold_of_ratios(ratio, interior),
+                                  0.5 * (1 + muscle_ratio) - 0.15, brightest_gland);
   result.gland_ratio = std::clamp(brightness_of_gland(ratio, interior, start, muscle_ratio),
                                   0.5 * muscle_ratio, brightest_gland - 0.05);
   result.threshold = std::min(0.5 * (1 + result.gland_ratio), brightest_gland);
@@ -216,10 +217,13 @@ Fibroglandular find_fibroglandular(const Volume<float>& ratio, const Mask& inter
   fill_fractions(result, ratio,
                  where_gland_is(ratio, interior, by_muscle, result.gland_ratio, fat_cv), fat_cv);
   remove_parts(lobes, least_lobe, by_muscle);
-  double gland = 0;
-  for (const std::uint8_t lobe : lobes.voxels) gland += lobe;
-  result.fat_fraction = values.empty() ? 0 : 1 - gland / double(values.size());
-  const Mask grown = gland_by_growing(ratio, interior);
+  double gland = 0, all = 0;
+  for (std::size_t n = 0; n < lobes.voxels.size(); ++n) {
+    gland += lobes.voxels[n];
+    all += interior.voxels[n];
+  }
+  result.fat_fraction = all > 0 ? 1 - gland / all : 0;
+  const Mask grown = gland_by_growing(ratio, body, interior);
   compare(result, interior, lobes, grown);
   if (interior_by == Interior::region_growing) {
     if (fat_seeds(ratio, interior).empty()) {

@@ -22,15 +22,15 @@ struct Fibroglandular {
       0;                 ///< of the interior, by confidence-connected region growing of fat
   double agreement = 0;  ///< Dice of the fibroglandular voxels of both ways
 };
-/// `interior` is the breast beneath the skin and in front of the wall. `ratio` is intensity / bias:
+/// `interior` is the breast beneath the skin and in front of the wall, in `body`. `ratio` is intensity / bias:
 /// 1 in fat, with the coefficient of variation `fat_cv`. Dark components below 60 mm3, or mostly in
 /// `by_muscle`, stay fat in the labels. A fraction is the mixture of gland and fat that has the
 /// brightness of the voxel. In and next to dark components, the fractions are adjusted so that
 /// limiting them to 0 and 1 does not change their sum; elsewhere only brightness beyond the scatter
 /// of fat counts. Throws Error (input) if region growing is requested and finds no fat to start
 /// from.
-Fibroglandular find_fibroglandular(const Volume<float>& ratio, const Mask& interior,
-                                   const Mask& by_muscle, double muscle_ratio, double fat_cv,
-                                   Interior interior_by);
+Fibroglandular find_fibroglandular(const Volume<float>& ratio, const Mask& body,
+                                   const Mask& interior, const Mask& by_muscle, double muscle_ratio,
+                                   double fat_cv, Interior interior_by);
 
 }  // namespace breast
