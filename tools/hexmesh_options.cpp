@@ -34,7 +34,8 @@ void MeshChoices::check() const {
   if (surroundings_mm > 0 && skin_as == "layer")
     throw input_error(
         "--surroundings needs --skin-as membrane: the tissue around the breast has no layer of skin");
-  if (!tetrahedra.empty()) require_sibling("tetrahedra", "--tetrahedra");
+  if (!tetrahedra.empty())
+    require_sibling("tetrahedra", "--tetrahedra", "it needs the package libcgal-dev");
   if (skin != "measured") parse_skin_thickness(skin);
   if (muscle != "measured") parse_muscle_thickness(muscle);
   mesh_options(1);

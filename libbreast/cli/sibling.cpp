@@ -53,12 +53,13 @@ int run_silently(std::vector<std::string> words) {
 
 }  // namespace
 
-void require_sibling(const std::string& tool, const std::string& what) {
+void require_sibling(const std::string& tool, const std::string& what,
+                     const std::string& packages) {
   if (access(sibling(tool).c_str(), X_OK) == 0) return;
   throw input_error(
       what, " needs the program ", sibling(tool).string(),
-      ", which is not built: cmake --preset release && cmake --build build/release --target ",
-      tool);
+      ", which is not built: cmake --preset release && cmake --build build/release --target ", tool,
+      " (", packages, ")");
 }
 
 Report run_sibling(const std::string& tool, const std::vector<std::string>& arguments) {

@@ -80,7 +80,8 @@ void measure_fit(const DiscSurface& surface, const SheetData& data, const Breast
       if (inside(st)) samples.push_back(geometry.skin.position(st));
     }
   TriMesh skin;
-  skin.points = surface.points, skin.triangles = surface.triangles;
+  skin.points = surface.points;
+  skin.triangles = surface.triangles;
   const TriangleTree tree(skin);
   std::vector<double> distances(samples.size());
 #pragma omp parallel for num_threads(threads()) schedule(dynamic, 64)

@@ -10,7 +10,7 @@
 
 namespace breast {
 
-/// The deformation gradient F = ∂x/∂X of an element at a point; `reference` and `deformed`: positions of all nodes, mm.
+/// The deformation gradient F = ∂x/∂X of an element at a point. `reference` and `deformed`: positions of all nodes, mm.
 Mat3 deformation_gradient(const HexMesh& mesh, int element, const HexShape& shape,
                           const std::vector<Vec3>& reference, const std::vector<Vec3>& deformed);
 

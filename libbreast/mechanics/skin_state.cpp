@@ -15,7 +15,8 @@ namespace breast {
 
 namespace {
 
-/// A tissue that is strained beyond the stable range of its law keeps this fraction of its shear modulus here.
+/// A tissue that is strained beyond the stable range of its law has no resistance to reckon with, which is said elsewhere.
+/// This fraction of its shear modulus keeps the length of wrinkles finite.
 constexpr double least_remaining = 0.01;
 
 // Area elements √det a at the rule's points, times its weights.
@@ -30,13 +31,13 @@ Eigen::Matrix<double, QuadRule<N>::points, 1> areas(const Eigen::Matrix<double, 
   return out;
 }
 
-/// Shear modulus (Pa) of the tissue of an element, as it is deformed, in the direction in which it is weakest. Laws that stiffen resist
-/// the bending of the skin by more than they do at rest.
+/// Shear modulus (Pa) of the tissue of an element, as it is deformed, in the direction in which it is weakest. Tissue that
+/// stiffens resists wrinkles of the skin by more than it does at rest.
 double beneath(const HexMesh& mesh, const MaterialSet& materials, int element,
                const std::vector<Vec3>& reference, const std::vector<Vec3>& deformed) {
   const Law& law = materials.law(mesh.tissue[std::size_t(element)]);
   const Mat3 b = isochoric_stretch_at_centre(mesh, element, reference, deformed);
-  return law.shear_modulus() * std::max(weakest_shear(law, b), least_remaining);
+  return law.shear_modulus() * std::max(least_remaining, weakest_shear(law, b));
 }
 
 template <int N>

@@ -18,8 +18,8 @@ struct SkinState {
   double longest_wrinkle_mm = 0;                     ///< largest π|N|/μ
 };
 
-/// The state of the membrane of `mesh` in the deformed shape; all zero without a membrane. `pressure`: of plates on the nodes, empty
-/// without plates; a face on which they press at all nodes lies flat and cannot wrinkle.
+/// The state of the membrane of `mesh` in the deformed shape; all zero without a membrane. `pressure`: of plates on the
+/// nodes, empty without plates; a face on which they press at all nodes lies flat and cannot wrinkle.
 SkinState skin_state(const HexMesh& mesh, const MaterialSet& materials,
                      const std::vector<Vec3>& reference, const std::vector<Vec3>& deformed,
                      const std::vector<double>& pressure = {});

@@ -66,6 +66,7 @@ Volume<float> coil_sensitivity(const PhantomImage& image, double bias, std::uint
     if (image.side[n] > 0 && image.tissue[n] == std::uint8_t(Tissue::fat))
       breast.push_back(field.voxels[n]);
   if (breast.empty()) throw input_error("coil sensitivity: the image holds no breast");
+  // Rounded: the scans of earlier versions are kept, bit for bit.
   const double spread = float(percentile(breast, 0.99)) - float(percentile(breast, 0.01));
   const double power = elementary::log(bias) / spread, middle = percentile(breast, 0.5);
 #pragma omp parallel for schedule(static) num_threads(threads())

@@ -13,7 +13,8 @@ namespace breast {
 namespace {
 
 // By this much a prone breast hangs in front of the skin over the sternum.
-constexpr double hanging = 45;        // mm
+constexpr double hanging = 45;  // mm
+// The score of the wall was one half at this largest deviation; it warns of doubtful sides of the chest.
 constexpr double most_deviation = 6;  // mm
 
 /// Volume (ml) within the breast that is darker than any of its tissues.

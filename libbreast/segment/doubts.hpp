@@ -8,7 +8,7 @@
 
 namespace breast {
 
-/// Adds a sentence for everything in the result, all else of which is set, that the user should check.
+/// Called last: adds a sentence for everything in the result that the user should check.
 void add_doubts(Segmentation& result, const Work& work, const Extents& found);
 
 }  // namespace breast

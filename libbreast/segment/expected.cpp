@@ -6,12 +6,14 @@
 #include <numbers>
 
 #include "core/units.hpp"
+#include "segment/grid/grid_ops.hpp"
 
 namespace breast {
 
 namespace {
 
-// Of 77 walls of known tissue, those of confidence nought would be that far off by regression (docs/validation/geometry.md).
+// Of 77 walls of known tissue, those of confidence nought would be that far off, by regression
+// (docs/validation/geometry.md).
 constexpr double unseen_off = 5;  // mm
 constexpr double mean_of_deviation =
     0.8;  // mean distance over standard deviation of a normal distribution
@@ -22,7 +24,7 @@ bool covered(const Work& work, int i, int k) {
          work.extent.columns[std::size_t(k) * nx + i] != 0;
 }
 
-/// Rise of the wall (mm) from a column to the next along x and z, of those that the breast covers.
+/// Rise of the wall (mm) from a column to the next along x or z, of those that the breast covers.
 double rise(const Work& work, int i, int k, int across, int along) {
   const int behind = covered(work, i - across, k - along),
             ahead = covered(work, i + across, k + along);
@@ -35,7 +37,8 @@ double rise(const Work& work, int i, int k, int across, int along) {
 }  // namespace
 
 double expected_wall_mm(const Work& work) {
-  // Where the wall turns to the side, its rise says no longer how far it is.
+  // At the side the wall runs backwards almost along its column, whose length then measures no distance from it. Its
+  // rise counts up to an angle of about 75 degrees.
   constexpr double steepest = 4;
   const Vec3& spacing = work.scan.grid.spacing;
   double sum = 0, count = 0;
@@ -70,7 +73,7 @@ double expected_breast_dice(const Work& work, double cut_by_view_cm2) {
           if (!grid.contains(a, b, c) || work.breast.at(a, b, c)) continue;
           const bool wall =
               work.body.mask.at(a, b, c) && b * grid.spacing[1] >= work.wall.depth.at(a, c);
-          if (!wall) missed += 0.25 * grid.voxel_volume();  // of a face's area times its voxel
+          if (!wall) missed += 0.25 * grid.voxel_volume();  // along one face
         }
       }
     }

@@ -16,8 +16,7 @@ constexpr std::array<double, 9> begins = {
 // Measured with one thread on scans of 1 to 250 million voxels, in microseconds a voxel. Only their ratios matter.
 constexpr double body_scanned = 0.012, body_working = 0.25, wall_working = 1.2,
                  tissue_of_side = 0.65;
-// Parts of the time for bias and wall, and of that for tissue, until the next stage begins. What is not said here is
-// the writing of the result.
+// Parts of the time for bias and wall, and of that for tissue, until the next stage begins. The rest is // the writing of the result.
 constexpr std::array<double, 3> of_wall = {0.45, 0.45, 0.1};
 constexpr std::array<double, 4> of_tissue = {0.3, 0.25, 0.3, 0.1};
 

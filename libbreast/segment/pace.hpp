@@ -9,7 +9,7 @@
 
 namespace breast {
 
-/// Where a stage of segment_breast() begins, as a share of all of them; `Pace` makes the share of the time of it.
+/// Where a stage of segment_breast() begins, as a share of all of them. `Pace` converts it into a share of the time.
 namespace stage_begin {
 inline constexpr double body = 0, first_wall = 0.2, second_wall = 0.4, muscle = 0.5, tissue = 0.6,
                         breast = 0.7, gland = 0.8, result = 0.9;

@@ -34,8 +34,9 @@ VoxelBox side_box(const Work& coarse, const Grid& grid, Side side) {
       Vec3(coarse.domain.last + 0.5, (deepest + behind) / working.spacing[1], 0)));
   VoxelBox box;
   for (int d = 0; d < 2; ++d) {
-    box.first[d] = std::clamp(int(std::ceil(low[d] - 1e-6)), 0, grid.size[d] - 1);
-    box.last[d] = std::clamp(int(std::floor(high[d] + 1e-6)), 0, grid.size[d] - 1);
+    const double end = grid.size[d] - 1;
+    box.first[d] = int(std::clamp(std::ceil(low[d] - 1e-6), 0.0, end));
+    box.last[d] = int(std::clamp(std::floor(high[d] + 1e-6), 0.0, end));
   }
   box.last[2] = grid.size[2] - 1;
   // Air beside the body, for the surfaces' sake.
@@ -155,7 +156,8 @@ Volume<float> on_working_grid(const Volume<float>& scan) {
 std::size_t side_voxels(const Work& coarse, const Grid& scanned, Side side) {
   const VoxelBox box = side_box(coarse, scanned, side);
   std::size_t count = 1;
-  for (std::size_t d = 0; d < 3; ++d) count *= std::size_t(box.last[d] - box.first[d] + 1);
+  for (std::size_t d = 0; d < 3; ++d)
+    count *= std::size_t(std::max(0, box.last[d] - box.first[d] + 1));
   return count;
 }
 

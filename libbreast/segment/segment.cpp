@@ -6,11 +6,9 @@
 #include <numbers>
 #include <utility>
 
-#include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "core/statistics/percentile.hpp"
 #include "core/table.hpp"
-#include "core/units.hpp"
 #include "segment/bias_and_wall.hpp"
 #include "segment/body/field_of_view.hpp"
 #include "segment/body/side.hpp"

@@ -38,9 +38,10 @@ double stand_upright(Images& images, const Volume<float>& scanned, const Mask& b
 struct Work {
   Volume<float> scan, skin_distance;
   Volume<float> brightness;  ///< scan over bias: 1 in fat
-  Volume<float> ratio;       ///< on the working grid: brightness within the body, 0 outside
-  Volume<float> fat_share;   ///< as in Images
-  Mask seen;                 ///< as in Images
+  /// Brightness within the body, 0 outside; on the working grid alone, empty on the side's own.
+  Volume<float> ratio;
+  Volume<float> fat_share;  ///< as in Images
+  Mask seen;                ///< as in Images
   /// Distance (mm) from the skin that `scan` shows; empty where that is the skin of the body.
   Volume<float> own_distance;
   Body body;

@@ -67,7 +67,7 @@ fi
 
 # Third parties stay in .cpp files (Eigen apart) and in the headers those files alone share: the folders
 # io/hdf5, io/volume, io/dicom, io/vtk, and NAME_impl.hpp.
-foreign=$(grep -rnE '^ *#include <(hdf5|xraylib|vtk|itk|gdcm|opencv|CGAL|CLI|nlohmann|nlopt|cholmod|gtest)' --include='*.hpp' \
+foreign=$(grep -rnE '^ *#include <(hdf5|xraylib|vtk|itk|gdcm|opencv|CGAL|CLI|nlohmann|nlopt|cholmod|openssl|gtest)' --include='*.hpp' \
   libbreast | grep -vE '^libbreast/(io/(hdf5|volume|dicom|vtk)/|[a-z]+/[a-z_]+_impl\.hpp)' || true)
 if [ -n "$foreign" ]; then
   echo "third party in a header: $foreign"

@@ -33,7 +33,7 @@ struct PathOptions {
   double control_tolerance = 1e-4;  ///< relative, of force, pressure and area
   int most_solves = 400;
   /// No step begins after so many iterations of Newton's method. Views of real women that the plates grip took 160 to 1076; this
-  /// is three times the mean of CC views.
+  /// is three times the mean of CC views. The last step may go beyond.
   int most_iterations = 1200;
   /// Called before each position is solved with the part of the way to the nearest target (0 to 1) at
   /// which it is expected, to update whatever depends on it.

@@ -18,8 +18,9 @@ struct SurfaceContactOptions {
   double way_depth = 1;         ///< mm
   double depth = 0.035;         ///< mm
   double way_tolerance = 1e-6;  ///< a solve with a larger tolerance is an intermediate one
-  /// A solve with a larger tolerance is one of those among which a force is sought.
-  double sought_tolerance = 1e-8;
+  /// A solve with at most this tolerance is a solution, one with a larger tolerance, up to that of the way, is one of
+  /// those among which a force is sought.
+  double accurate_tolerance = 1e-8;
   double volume_tolerance = 1e-9;
   Friction friction;
   int max_iterations = 100;   ///< without an indefinite tangent

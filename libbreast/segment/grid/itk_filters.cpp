@@ -113,7 +113,7 @@ Mask confidence_connected(Volume<float> volume, const std::vector<std::array<int
   auto filter =
       itk::ConfidenceConnectedImageFilter<itk::Image<float, 3>, itk::Image<std::uint8_t, 3>>::New();
   filter->SetInput(image_of(volume));
-  volume.voxels = {};
+  volume.voxels = std::vector<float>();  // `= {}` would keep the memory
   for (const auto& seed : seeds) filter->AddSeed({{seed[0], seed[1], seed[2]}});
   filter->SetMultiplier(multiplier);
   filter->SetInitialNeighborhoodRadius(unsigned(radius));

@@ -57,7 +57,7 @@ class Tool(Declaration):
         self.integer("--threads", "number of threads", len(os.sched_getaffinity(0)), 1, 1024).default_text = "all cores"
         self.flag("--quiet", "print no progress and no warnings on stderr")
         self.flag("--help", "print a short help")
-        self.flag("--help-all", "print the whole description and all options by topic")
+        self.flag("--help-all", "print the whole description and all options")
         self.flag("--version", "print the name and version")
         self.common, self.options = self.options, []
 

@@ -84,7 +84,7 @@ def _distributions(cohort: CohortPages) -> list[dict[str, Any]]:
     if cohort.motion:
         tables += [(cohort.motion, column) for column in cohort.motion.columns[2:]]
     found = (distribution(table, column, cohort.women) for table, column in tables if column in table.columns)
-    return [distribution for distribution in found if distribution]
+    return [dots for dots in found if dots]
 
 
 def distribution(table: Table, column: str, women: Table) -> dict[str, Any] | None:
