@@ -68,6 +68,8 @@ void write_field_checks(const SolveSummary& summary, Report& report) {
   report.set("skin/wrinkling_area_percent", 100 * skin.wrinkling_share);
   report.set("skin/least_resultant_N_per_m", skin.least_resultant_N_per_m);
   report.set("skin/longest_wrinkle_mm", skin.longest_wrinkle_mm);
+  report.set("skin/folds", skin.folds.edges);
+  report.set("skin/sharpest_fold_degrees", skin.folds.sharpest_deg);
 }
 
 // For a solve without a stable solution: the cause of the instability, and the change that would

@@ -87,8 +87,10 @@ SkinState skin_state(const HexMesh& mesh, const MaterialSet& materials,
                      const std::vector<Vec3>& reference, const std::vector<Vec3>& deformed,
                      const std::vector<double>& pressure) {
   if (mesh.skin_model != SkinModel::membrane) return {};
-  return mesh.order == 1 ? state_of<4>(mesh, materials, reference, deformed, pressure)
-                         : state_of<9>(mesh, materials, reference, deformed, pressure);
+  SkinState state = mesh.order == 1 ? state_of<4>(mesh, materials, reference, deformed, pressure)
+                                    : state_of<9>(mesh, materials, reference, deformed, pressure);
+  state.folds = skin_folds(mesh, deformed);
+  return state;
 }
 
 }  // namespace breast

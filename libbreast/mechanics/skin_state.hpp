@@ -3,19 +3,21 @@
 #pragma once
 
 #include "material/material_set.hpp"
+#include "mechanics/skin_folds.hpp"
 #include "mesh/hex_mesh.hpp"
 
 namespace breast {
 
 /// A membrane on a soft half-space under a compressive resultant N wrinkles at wave numbers above
-/// 2μ/|N|, so with wave lengths below π|N|/μ; μ: the shear modulus of the deformed tissue beneath, in its
-/// weakest direction. Where that is at least two
-/// elements long the mesh itself can wrinkle; it cannot resolve shorter wrinkles, which do no harm.
+/// 2μ/|N|, so with wave lengths below π|N|/μ; μ: the shear modulus of the deformed tissue beneath, in its weakest
+/// direction. Where that is at least two elements long the mesh itself can wrinkle, and whether it did is seen by its
+/// folds; it cannot resolve shorter wrinkles, which do no harm.
 struct SkinState {
   int faces = 0, compressed = 0, wrinkling = 0;      ///< counts
   double compressed_share = 0, wrinkling_share = 0;  ///< of the deformed skin area
   double least_resultant_N_per_m = 0;                ///< most negative principal resultant
   double longest_wrinkle_mm = 0;                     ///< largest π|N|/μ
+  SkinFolds folds;
 };
 
 /// The state of the membrane of `mesh` in the deformed shape; all zero without a membrane. `pressure`: of plates on the

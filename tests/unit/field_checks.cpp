@@ -120,5 +120,21 @@ TEST(Skin, WrinklesWhenStiffAndThick) {
               std::numbers::pi * -1e3 * state.least_resultant_N_per_m, 1e-6 * shear);
 }
 
+// A groove across the top of a block, 25 mm wide: its slopes turn by twice the angle of each at the bottom.
+TEST(Skin, FoldsWhereItTurnsInwardsSharply) {
+  const HexMesh mesh = fixtures::block({});
+  const auto groove = [&](double deep) {
+    std::vector<Vec3> x = mesh.imaged;
+    for (Vec3& p : x)
+      if (p.z() > 99 && std::abs(p.x() - 50) < 1) p.z() -= deep;
+    return skin_folds(mesh, x);
+  };
+  EXPECT_EQ(groove(0).edges, 0);
+  EXPECT_EQ(groove(8).edges, 0);  // 35 degrees
+  EXPECT_EQ(groove(20).edges, 4);
+  EXPECT_NEAR(groove(20).sharpest_deg, 2 * std::atan2(20, 25) * 180 / std::numbers::pi, 1e-9);
+  EXPECT_EQ(groove(-20).edges, 8);  // beside a ridge
+}
+
 }  // namespace
 }  // namespace breast
