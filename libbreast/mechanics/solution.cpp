@@ -89,12 +89,12 @@ void check_fields(const Scene& scene, Equilibrium& equilibrium) {
                                 equilibrium.points, equilibrium.contact_pressure);
   const SkinState& skin = equilibrium.skin;
   if (skin.folds.edges > 0 && skin.wrinkling_share > much_wrinkling) {
-    equilibrium.doubts.push_back(
-        message("the skin is compressed enough to wrinkle over two elements or more on ",
-                std::round(1000 * skin.wrinkling_share) / 10, " % of its area (wrinkles ",
-                length_of_wrinkles(skin.longest_wrinkle_mm), "), and folds inwards at ",
-                skin.folds.edges, " edges of elements, by up to ",
-                std::round(skin.folds.sharpest_deg), " degrees: the folds depend on the mesh"));
+    equilibrium.doubts.push_back(message(
+        "the skin is compressed enough to wrinkle over two elements or more on ",
+        std::round(1000 * skin.wrinkling_share) / 10, " % of its area (wrinkles ",
+        length_of_wrinkles(skin.longest_wrinkle_mm), "), and folds inwards at ", skin.folds.edges,
+        skin.folds.edges == 1 ? " edge" : " edges", " of elements by up to ",
+        std::round(skin.folds.sharpest_deg), " degrees: the folds depend on the mesh"));
   }
 }
 

@@ -133,7 +133,8 @@ TEST(Skin, FoldsWhereItTurnsInwardsSharply) {
   EXPECT_EQ(groove(8).edges, 0);  // 35 degrees
   EXPECT_EQ(groove(20).edges, 4);
   EXPECT_NEAR(groove(20).sharpest_deg, 2 * std::atan2(20, 25) * 180 / std::numbers::pi, 1e-9);
-  EXPECT_EQ(groove(-20).edges, 8);  // beside a ridge
+  EXPECT_EQ(groove(-20).edges, 0);  // beside a ridge, 39 degrees
+  EXPECT_EQ(groove(-30).edges, 8);
 }
 
 }  // namespace
