@@ -130,14 +130,13 @@ SelfContact self_contact(const HexMesh& mesh, const std::vector<Vec3>& x) {
   return found;
 }
 
-std::map<Tissue, StrainRange> strain_ranges(const HexMesh& mesh, const Eigen::VectorXd& x) {
+std::map<Tissue, StrainRange> strain_ranges(const HexMesh& mesh, const std::vector<Vec3>& x) {
   const std::vector<HexShape> shapes = gauss_shapes(mesh.order);
-  const std::vector<Vec3> points = unflatten(x);
   std::map<Tissue, StrainRange> ranges;
   for (int e = 0; e < mesh.elements(); ++e) {
     StrainRange& range = ranges[mesh.tissue[std::size_t(e)]];
     for (const HexShape& shape : shapes) {
-      const Mat3 F = deformation_gradient(mesh, e, shape, mesh.reference, points);
+      const Mat3 F = deformation_gradient(mesh, e, shape, mesh.reference, x);
       const Vec3 squares =
           Eigen::SelfAdjointEigenSolver<Mat3>(F.transpose() * F, Eigen::EigenvaluesOnly)
               .eigenvalues();

@@ -52,7 +52,7 @@ struct StrainRange {
   double min_stretch = 1, max_stretch = 1, min_det_F = 1, max_det_F = 1;
 };
 /// Per tissue present, F from mesh.reference to `x` (3 per node).
-std::map<Tissue, StrainRange> strain_ranges(const HexMesh& mesh, const Eigen::VectorXd& x);
+std::map<Tissue, StrainRange> strain_ranges(const HexMesh& mesh, const std::vector<Vec3>& x);
 
 /// Smallest det F from mesh.reference to `x` over quadrature points and corners, per element.
 std::vector<double> smallest_det_F(const HexMesh& mesh, const Eigen::VectorXd& x);

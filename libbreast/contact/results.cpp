@@ -170,7 +170,7 @@ void record_compression(const Scene& scene, const CompressionOptions& options, c
   result.self_contact = self_contact(mesh, positions);
   result.projected_cm2 = projected_cm2(mesh, positions, result.plates.paddle);
   result.coverage = coverage(mesh, state.x, result.plates.paddle);
-  result.strains = strain_ranges(mesh, state.x);
+  result.strains = strain_ranges(mesh, positions);
   record_profile(mesh, state.x, solver, result);
 }
 

@@ -10,7 +10,8 @@
 
 namespace breast {
 
-/// The deformation gradient F = ∂x/∂X of an element at a point. `reference` and `deformed`: positions of all nodes, mm.
+/// The deformation gradient F = ∂x/∂X of an element at a point. `reference` and `deformed` hold the positions (mm) of
+/// all nodes in the two shapes.
 Mat3 deformation_gradient(const HexMesh& mesh, int element, const HexShape& shape,
                           const std::vector<Vec3>& reference, const std::vector<Vec3>& deformed);
 
